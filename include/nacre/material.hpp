@@ -1,0 +1,46 @@
+// A material: the layers light scatters through, and how the effect uses them.
+#pragma once
+
+#include "nacre/profile.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nacre {
+
+/// Where the albedo (surface colour) is applied: after scattering only, or its square root before and after.
+enum class AlbedoUse { Post, PreAndPost };
+
+/// A subsurface material. Exactly one of `layers` and `meanFreePath` describes the profile.
+struct Material {
+    std::string name;
+    std::string description;
+
+    /// [1 … 32 layers] the profile as a sum of Gaussians.
+    std::vector<Layer> layers;
+    /// [> 0] mm per channel: d of Burley's normalised diffusion (Christensen and Burley 2015), used when `layers` is empty.
+    std::optional<Rgb> meanFreePath;
+
+    AlbedoUse albedoUse = AlbedoUse::Post;
+    /// [0, 1] how much of the light scatters; 0 leaves the surface as it is. Result = mix(irradiance, scattered, strength).
+    double strength = 1;
+    /// [0, 1] τ: the share of diffuse light that is transmission: albedo·((1 − τ)·scattered + τ·T(d)·back light).
+    double translucency = 0.5;
+    /// [> 0] multiplies every length of the profile: 2 scatters twice as far.
+    double scale = 1;
+
+    /// [0, 1] diffuse albedo for surfaces that bring none of their own.
+    Rgb albedo{0.8, 0.8, 0.8};
+    double roughness = 0.5; ///< [0, 1] GGX perceptual roughness
+    double specular = 0.5;  ///< [0, 1] F0 = 0.08·specular; 0.5 is an index of refraction of 1.5
+};
+
+/// The material's profile with `scale` applied. Throws std::invalid_argument naming the field when it has none.
+std::unique_ptr<Profile> makeProfile(const Material& material);
+
+/// One sentence that names the first field out of range and its value; empty when the material is valid.
+std::string findFault(const Material& material);
+
+} // namespace nacre

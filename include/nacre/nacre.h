@@ -1,0 +1,322 @@
+/* Nacre: real-time subsurface scattering and translucency for any Vulkan 1.2 renderer. Plain C, the library's ABI.
+ *
+ * THE CONTRACT
+ *  1. Recording (nacreCmd*) never submits, waits, allocates, compiles or prints. Create, resize and set-materials may.
+ *  2. The caller's images keep their layout: NacreImage says which one they are in, and they leave in it. The library
+ *     puts barriers only around its own intermediates.
+ *       on entry  every input image is visible to VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_READ_BIT;
+ *                 every output image may be written by VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_WRITE_BIT
+ *       on exit   outputs were written by VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_WRITE_BIT
+ *     Clobbered: the command buffer's compute pipeline, compute descriptor sets and push constants.
+ *  3. Vulkan 1.2 core. What a device and its images must bring can be asked before a device exists.
+ *  4. No globals. Contexts are independent; one context is used by one thread at a time. Frames in flight and records
+ *     per frame are create-time numbers; exceeding them is NACRE_ERROR_LIMIT_EXCEEDED.
+ *  5. An error is a result code and a message (NacreContextInfo::messageCallback) that names the field and its value.
+ *     After an error the command buffer is as it was. Every struct is zero-initialisable; 0 is stated per field.
+ *  6. Optional inputs are NacreImages with a null view; each states its fallback.
+ *  7. Masks are explicit: material id 0 means "no subsurface scattering here" and copies the irradiance. Black is a
+ *     colour. What a rejected neighbour would have given is renormalised: a constant field stays constant to 1e-3.
+ *  8. Cost can be asked: dispatches, bytes of intermediates, pass names; every pass can be timed.
+ *
+ * CONVENTIONS
+ *  Matrices are column-major and multiply column vectors. View space is right-handed and looks along -Z. Clip space is
+ *  Vulkan's (y down, depth 0 to 1 in either direction). Lengths are scene units; metersPerUnit turns them into metres.
+ *  Materials are in millimetres. Light is linear. Irradiance is diffuse light without albedo and without specular.
+ *
+ * WHAT TO DO WITH THE RESULTS
+ *  diffuse = albedo / pi * ((1 - translucency) * scattered + transmitted)
+ *  where `scattered` is nacreCmdScatter's output, `transmitted` nacreCmdTransmit's (it includes the material's
+ *  translucency), and translucency is 0 where transmit is not used. With an albedo image given to nacreCmdScatter,
+ *  its output already has the albedo in it, as the material's albedoUse says.
+ */
+#ifndef NACRE_H
+#define NACRE_H
+
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32) && defined(NACRE_SHARED)
+#ifdef NACRE_BUILDING
+#define NACRE_API __declspec(dllexport)
+#else
+#define NACRE_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define NACRE_API __attribute__((visibility("default")))
+#else
+#define NACRE_API
+#endif
+
+/** Version of this header; nacreCreateContext compares it with the library's. */
+#define NACRE_VERSION_MAJOR 0
+#define NACRE_VERSION_MINOR 1
+#define NACRE_VERSION_PATCH 0
+#define NACRE_HEADER_VERSION ((uint32_t)(NACRE_VERSION_MAJOR << 16 | NACRE_VERSION_MINOR << 8 | NACRE_VERSION_PATCH))
+
+/** Most layers a material may have. */
+#define NACRE_MAX_LAYERS 32u
+/** Largest material id, and the default and upper limit of NacreContextInfo::maxMaterials. */
+#define NACRE_MAX_MATERIALS 65535u
+/** NacreLight::shadowMap of a light without a shadow map. */
+#define NACRE_NO_SHADOW_MAP 0xffffffffu
+/** Most shadow-map images one nacreCmdTransmit takes (each may have many array layers). */
+#define NACRE_MAX_SHADOW_MAPS 16u
+
+typedef struct NacreContext_T* NacreContext;
+
+typedef enum NacreResult {
+    NACRE_SUCCESS = 0,
+    NACRE_ERROR_INVALID_ARGUMENT = -1,   /**< a field is null, out of range, not finite or contradicts another */
+    NACRE_ERROR_UNSUPPORTED_DEVICE = -2, /**< the device lacks a version, feature or limit of nacreGetRequirements */
+    NACRE_ERROR_UNSUPPORTED_FORMAT = -3, /**< an image's format or usage is not among nacreGetImageRequirements */
+    NACRE_ERROR_LIMIT_EXCEEDED = -4,     /**< more frames, records, materials, lights or pixels than created for */
+    NACRE_ERROR_OUT_OF_MEMORY = -5,      /**< host or device memory */
+    NACRE_ERROR_VERSION_MISMATCH = -6,   /**< header and library differ */
+    NACRE_ERROR_VULKAN = -7,             /**< a Vulkan call failed; the message names it and its VkResult */
+    NACRE_RESULT_MAX_ENUM = 0x7fffffff
+} NacreResult;
+
+/** How light is spread. */
+typedef enum NacreTechnique {
+    NACRE_TECHNIQUE_DEFAULT = 0,   /**< the library's choice */
+    NACRE_TECHNIQUE_SEPARABLE = 1, /**< two passes, line-spread kernels, world-space bilateral weights */
+    NACRE_TECHNIQUE_BRUTE = 2,     /**< every pixel within the 99.9 % radius; slow, the reference of the others */
+    NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
+} NacreTechnique;
+
+typedef enum NacreDepthEncoding {
+    NACRE_DEPTH_LINEAR = 0,   /**< distance along the view direction in scene units, > 0 */
+    NACRE_DEPTH_HARDWARE = 1, /**< the depth buffer's value, decoded with NacreView::clipFromView */
+    NACRE_DEPTH_ENCODING_MAX_ENUM = 0x7fffffff
+} NacreDepthEncoding;
+
+typedef enum NacreAlbedoUse {
+    NACRE_ALBEDO_POST = 0,         /**< scatter irradiance, multiply by the albedo afterwards */
+    NACRE_ALBEDO_PRE_AND_POST = 1, /**< multiply by the albedo's square root before and after */
+    NACRE_ALBEDO_USE_MAX_ENUM = 0x7fffffff
+} NacreAlbedoUse;
+
+typedef enum NacreLightKind {
+    NACRE_LIGHT_DIRECTIONAL = 0,
+    NACRE_LIGHT_SPOT = 1,
+    NACRE_LIGHT_POINT = 2,
+    NACRE_LIGHT_KIND_MAX_ENUM = 0x7fffffff
+} NacreLightKind;
+
+/** The slots of NacreScatterInfo and NacreTransmitInfo, for nacreGetImageRequirements. */
+typedef enum NacreImageSlot {
+    NACRE_IMAGE_IRRADIANCE = 0,
+    NACRE_IMAGE_DEPTH = 1,
+    NACRE_IMAGE_MATERIAL_ID = 2,
+    NACRE_IMAGE_NORMAL = 3,
+    NACRE_IMAGE_STRENGTH = 4,
+    NACRE_IMAGE_THICKNESS = 5,
+    NACRE_IMAGE_ALBEDO = 6,
+    NACRE_IMAGE_SHADOW_MAP = 7,
+    NACRE_IMAGE_SCATTERED = 8,
+    NACRE_IMAGE_TRANSMITTED = 9,
+    NACRE_IMAGE_THICKNESS_OUT = 10,
+    NACRE_IMAGE_SLOT_COUNT = 11,
+    NACRE_IMAGE_SLOT_MAX_ENUM = 0x7fffffff
+} NacreImageSlot;
+
+typedef enum NacreSeverity {
+    NACRE_SEVERITY_INFO = 0,
+    NACRE_SEVERITY_ERROR = 1,
+    NACRE_SEVERITY_MAX_ENUM = 0x7fffffff
+} NacreSeverity;
+
+typedef void (*NacreMessageCallback)(NacreSeverity severity, const char* message, void* userData);
+
+/** What a device must bring. Enable `features` and `features12` (only the members set to VK_TRUE) when creating it. */
+typedef struct NacreRequirements {
+    uint32_t apiVersion; /**< VK_API_VERSION_1_2 */
+    VkPhysicalDeviceFeatures features;
+    VkPhysicalDeviceVulkan12Features features12; /**< sType set, pNext null */
+} NacreRequirements;
+
+/** What an image must bring. */
+typedef struct NacreImageRequirements {
+    const char* name;        /**< the field's name, e.g. "irradiance" */
+    uint32_t formatCount;
+    const VkFormat* formats; /**< any of these; static storage */
+    VkImageUsageFlags usage; /**< all of these */
+    VkBool32 optional;       /**< may be left out (null view) */
+} NacreImageRequirements;
+
+typedef struct NacreContextInfo {
+    uint32_t headerVersion; /**< NACRE_HEADER_VERSION */
+    VkInstance instance;
+    VkPhysicalDevice physicalDevice;
+    VkDevice device;
+    PFN_vkGetInstanceProcAddr getInstanceProcAddr; /**< required; every entry point is reached through it */
+    const VkAllocationCallbacks* allocator;        /**< host allocation callbacks; null = Vulkan's own */
+    VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none */
+    VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area; see nacreResize */
+    uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
+    uint32_t recordsPerFrame;  /**< [1 … 64] scatter calls, and transmit calls, per frame (views); 0 = 1 */
+    uint32_t maxMaterials;     /**< [1 … 65535] largest material id; 0 = 64 */
+    uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
+    NacreMessageCallback messageCallback; /**< null = silent */
+    void* userData;            /**< handed to messageCallback */
+} NacreContextInfo;
+
+/** One layer of a material: adds weight · exp(-r² / 2 variance) / (2 pi variance). */
+typedef struct NacreLayer {
+    float weight[3]; /**< [>= 0] RGB; normalised per channel over the layers */
+    float variance;  /**< [>= 0] mm² */
+} NacreLayer;
+
+/** A subsurface material. Either layers, or meanFreePath with layerCount 0. */
+typedef struct NacreMaterial {
+    const NacreLayer* layers; /**< copied; may be freed after nacreSetMaterials */
+    uint32_t layerCount;      /**< [0 … NACRE_MAX_LAYERS] */
+    float meanFreePath[3];    /**< [> 0] mm, d of Burley's normalised diffusion; used when layerCount is 0 */
+    NacreAlbedoUse albedoUse;
+    float strength;           /**< [0, 1] result = mix(irradiance, scattered, strength); 0 = no scattering */
+    float translucency;       /**< [0, 1] share of diffuse light that is transmission; 0 = none */
+    float scale;              /**< [> 0] multiplies the profile's lengths; 0 = 1 */
+    float thickness;          /**< [>= 0] mm, authored thickness: bounds the shadow maps' estimate, or stands in for it
+                                   where a light has none; 0 = not authored */
+    uint32_t exchangeGroups;  /**< bit mask: light crosses between two materials on one surface (with the receiver's
+                                   profile) when they share a bit; 0 = only within the material */
+} NacreMaterial;
+
+/** Skin-like defaults: strength 1, translucency 0.5, scale 1, all exchange groups; the profile is the caller's. */
+static inline NacreMaterial nacreDefaultMaterial(void) {
+    NacreMaterial material = {0};
+    material.strength = 1.0f;
+    material.translucency = 0.5f;
+    material.scale = 1.0f;
+    material.exchangeGroups = 0xffffffffu;
+    return material;
+}
+
+/** An image of the caller's: a 2D view (a 2D array view for shadow maps). */
+typedef struct NacreImage {
+    VkImageView view;        /**< VK_NULL_HANDLE = not given */
+    VkFormat format;
+    VkImageLayout layout;    /**< the layout it is in, and stays in */
+    VkExtent2D extent;       /**< px */
+    VkImageUsageFlags usage; /**< what it was created with; 0 = not stated, not checked */
+} NacreImage;
+
+/** A camera and its part of the images. */
+typedef struct NacreView {
+    float clipFromView[16];           /**< any perspective or orthographic projection: reversed, infinite, off-centre,
+                                           jittered; maps the render area to [-1, 1] */
+    float viewFromWorld[16];          /**< rotation and translation; used by transmit and by normals */
+    NacreDepthEncoding depthEncoding;
+    float metersPerUnit;              /**< [> 0] 0 = 1 */
+    VkRect2D renderArea;              /**< px, the same in all images; zero extent = the irradiance's (transmit: the
+                                           depth's) whole extent */
+} NacreView;
+
+/** Timestamps around every pass: passCount + 1 queries from firstQuery on (see nacreGetCost). The caller resets them. */
+typedef struct NacreTimestamps {
+    VkQueryPool pool;    /**< VK_NULL_HANDLE = none */
+    uint32_t firstQuery;
+} NacreTimestamps;
+
+typedef struct NacreScatterInfo {
+    NacreView view;
+    uint32_t frame;           /**< [0 … framesInFlight) its previous use must have finished on the device */
+    NacreTechnique technique; /**< 0 = default */
+    NacreImage irradiance;    /**< diffuse light without albedo and specular, linear */
+    NacreImage depth;
+    NacreImage materialId;    /**< R8 or R16 uint; 0 or an id never set = no subsurface scattering */
+    NacreImage normal;        /**< optional, world space in xyz: value·normalScale + normalBias; without it area weights
+                                   come from depth differences */
+    float normalScale;        /**< 0 = 1 */
+    float normalBias;
+    NacreImage strength;      /**< optional, red: multiplies the material's strength; without it 1 */
+    NacreImage albedo;        /**< optional; without it the output is scattered irradiance and carries no albedo */
+    NacreImage scattered;     /**< output; not the irradiance image. Where there is no subsurface scattering it is the
+                                   irradiance (times the albedo when one is given) */
+    NacreTimestamps timestamps;
+} NacreScatterInfo;
+
+/** A light and what its shadow map needs. World space. */
+typedef struct NacreLight {
+    NacreLightKind kind;
+    float position[3];        /**< spot, point: where it is. Directional: the origin of the shadow map's depth */
+    float direction[3];       /**< directional, spot: the way the light travels; need not be normalised */
+    float irradiance[3];      /**< directional: on a surface that faces it; spot, point: the same at one metre */
+    float range;              /**< scene units, spot and point: falls to zero there (KHR_lights_punctual); 0 = unlimited */
+    float innerConeAngle;     /**< [rad] half angle, spot */
+    float outerConeAngle;     /**< [rad] half angle, spot */
+    uint32_t shadowMap;       /**< index into NacreTransmitInfo::shadowMaps, or NACRE_NO_SHADOW_MAP */
+    uint32_t shadowLayer;     /**< its first array layer; a point light has six, faces +X -X +Y -Y +Z -Z as in a cube map */
+    float shadowClipFromWorld[16]; /**< directional, spot */
+    float shadowRange;        /**< scene units: linear depth = stored value · shadowRange. Directional: along `direction`
+                                   from `position`; spot, point: distance from `position` */
+} NacreLight;
+
+typedef struct NacreTransmitInfo {
+    NacreView view;
+    uint32_t frame;
+    NacreImage depth;
+    NacreImage materialId;
+    NacreImage normal;            /**< required, as in NacreScatterInfo */
+    float normalScale;
+    float normalBias;
+    NacreImage thickness;         /**< optional, red in mm: as NacreMaterial::thickness, per pixel; 0 = not authored */
+    NacreImage strength;          /**< optional, red: multiplies the material's translucency */
+    uint32_t lightCount;
+    const NacreLight* lights;
+    uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] */
+    const NacreImage* shadowMaps; /**< 2D array views of linear depth */
+    float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
+    float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
+    VkBool32 thesisTransmittance; /**< T = sum w exp(-d²/v), the thesis's own form, in place of exp(-d²/2v) */
+    NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none */
+    NacreImage thicknessOut;      /**< optional output, red: the thickness used, mm, smallest over the lights that
+                                       reach the pixel from behind; 0 = none */
+    NacreTimestamps timestamps;
+} NacreTransmitInfo;
+
+/** What recording costs. */
+typedef struct NacreCost {
+    uint32_t dispatchCount;
+    uint32_t passCount;
+    const char* const* passNames; /**< static storage */
+    VkDeviceSize intermediateBytes;
+} NacreCost;
+
+/** The library's NACRE_HEADER_VERSION. */
+NACRE_API uint32_t nacreGetVersion(void);
+/** The enumerator's name; "NACRE_ERROR_UNKNOWN" for other values. */
+NACRE_API const char* nacreResultString(NacreResult result);
+NACRE_API const char* nacreTechniqueString(NacreTechnique technique);
+/** What a device must bring; no device is needed to ask. */
+NACRE_API NacreResult nacreGetRequirements(NacreRequirements* requirements);
+/** What an image in this slot must bring. */
+NACRE_API NacreResult nacreGetImageRequirements(NacreImageSlot slot, NacreImageRequirements* requirements);
+
+/** Allocates everything recording needs and compiles the pipelines. */
+NACRE_API NacreResult nacreCreateContext(const NacreContextInfo* info, NacreContext* context);
+/** The device must have finished with the context's work. Null is allowed. */
+NACRE_API void nacreDestroyContext(NacreContext context);
+/** Changes maxExtent. The device must have finished with the context's work. On failure the old extent stays. */
+NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent);
+/** Sets materials firstId … firstId + count - 1 (firstId >= 1). May be called while frames are in flight: a frame sees
+ *  the materials set before it was recorded. On error nothing changes. */
+NACRE_API NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count,
+                                        const NacreMaterial* materials);
+/** Light spreading under front-lit surfaces. */
+NACRE_API NacreResult nacreCmdScatter(NacreContext context, VkCommandBuffer commandBuffer, const NacreScatterInfo* info);
+/** Light coming through back-lit bodies. */
+NACRE_API NacreResult nacreCmdTransmit(NacreContext context, VkCommandBuffer commandBuffer,
+                                       const NacreTransmitInfo* info);
+NACRE_API NacreResult nacreGetScatterCost(NacreContext context, NacreTechnique technique, NacreCost* cost);
+NACRE_API NacreResult nacreGetTransmitCost(NacreContext context, NacreCost* cost);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

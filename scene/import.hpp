@@ -1,0 +1,23 @@
+// Reads models and scene files.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace nacre::scene {
+
+/// Reads a model (glTF 2.0, GLB, or any format Assimp knows) or a scene file (JSON, docs/schemas/scene.schema.json),
+/// told apart by content. A model without camera or lights gets a fitted camera and a three-point light set.
+/// Throws SceneError with one sentence that names the file and the field.
+Scene load(const std::filesystem::path& file);
+
+/// A model alone, exactly as the file has it (no camera or lights added).
+Scene loadModel(const std::filesystem::path& file);
+
+/// Adds what a scene needs to be looked at: a camera that sees all of it (when it has none) and key, fill and
+/// back light (when it has none).
+void addMissingViewAndLights(Scene& scene);
+
+/// Gives every surface this subsurface material (the CLI's --material).
+void assignMaterial(Scene& scene, const Material& material);
+
+} // namespace nacre::scene

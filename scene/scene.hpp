@@ -1,0 +1,155 @@
+// A scene in memory: what the importers, the scene files and the gallery produce and what the renderer draws.
+// Right-handed, +Y up, metres after `metersPerUnit`; colours linear Rec.709.
+#pragma once
+
+#include "nacre/material.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nacre::scene {
+
+/// What is wrong with a file: one sentence that names the file, the field and the value.
+struct SceneError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+struct Vertex {
+    glm::vec3 position{0};
+    glm::vec3 normal{0, 1, 0};
+    glm::vec4 tangent{1, 0, 0, 1}; ///< w is the bitangent's sign, as in glTF
+    glm::vec2 uv{0};
+};
+
+/// Indexed triangles with one surface.
+struct Mesh {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices; ///< three a triangle
+    std::uint32_t surface = 0;          ///< index into Scene::surfaces
+};
+
+/// 8-bit RGBA pixels, row 0 at the top.
+struct Texture {
+    std::string name;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    bool srgb = false;
+    bool repeat = true;
+    std::vector<std::uint8_t> pixels; ///< width·height·4 bytes
+};
+
+/// 32-bit float RGBA pixels, row 0 at the top.
+struct FloatImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<float> pixels; ///< width·height·4 floats
+};
+
+/// How a surface looks apart from its subsurface material.
+struct Surface {
+    std::string name;
+    glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1};
+    float metallic = 0;      ///< [0, 1]
+    float roughness = 0.5f;  ///< [0, 1]
+    float specular = 0.5f;   ///< [0, 1] F0 = 0.08·specular
+    float normalScale = 1;
+    glm::vec3 emission{0};
+    std::uint32_t baseColorTexture = none;
+    std::uint32_t normalTexture = none;
+    std::uint32_t metallicRoughnessTexture = none; ///< G roughness, B metallic
+    std::uint32_t thicknessTexture = none;         ///< G, multiplies `thickness`
+    glm::mat3 uvTransform{1};                      ///< KHR_texture_transform, applied to uv
+    bool alphaMask = false;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+    /// [≥ 0] mm; bounds the shadow-map thickness, or stands in for it. Negative: none authored.
+    float thickness = -1;
+    /// Index into Scene::materials; `none` = no subsurface scattering.
+    std::uint32_t material = none;
+};
+
+struct Instance {
+    std::string name;
+    std::uint32_t mesh = 0;
+    glm::mat4 transform{1};
+};
+
+enum class LightKind { Directional, Spot, Point };
+
+/// A punctual light (KHR_lights_punctual).
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::Directional;
+    glm::vec3 color{1};
+    float intensity = 1;           ///< directional: lux-like irradiance; spot and point: irradiance at one metre
+    glm::vec3 position{0};
+    glm::vec3 direction{0, -1, 0}; ///< the way the light travels
+    float range = 0;               ///< [m] 0 = unlimited
+    float innerConeAngle = 0;      ///< [rad] half angles
+    float outerConeAngle = 0.7853982f;
+    bool castsShadow = true;
+};
+
+enum class ProjectionKind { Perspective, Orthographic };
+
+struct Camera {
+    std::string name;
+    glm::vec3 position{0, 0, 1};
+    glm::vec3 target{0};
+    glm::vec3 up{0, 1, 0};
+    ProjectionKind projection = ProjectionKind::Perspective;
+    float verticalFieldOfView = 0.6f; ///< [rad] perspective
+    float orthographicHeight = 1;     ///< [units] orthographic
+    glm::vec2 offCenter{0};           ///< shift of the principal point in half images: 1 = to the edge
+    float nearPlane = 0;              ///< 0 = fitted to the scene
+    float farPlane = 0;               ///< 0 = fitted to the scene
+};
+
+/// Image-based light: an equirectangular image, or the built-in sky when there is none.
+struct Environment {
+    std::optional<FloatImage> image;
+    float intensity = 1;
+    float rotation = 0;                ///< [rad] about +Y
+    glm::vec3 zenith{0.25f, 0.32f, 0.45f};
+    glm::vec3 horizon{0.55f, 0.55f, 0.55f};
+    glm::vec3 ground{0.18f, 0.16f, 0.14f};
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;
+    std::vector<Texture> textures;
+    std::vector<Surface> surfaces;
+    std::vector<Instance> instances;
+    std::vector<Material> materials;
+    std::vector<Light> lights;   ///< those in use
+    std::vector<Camera> cameras; ///< the first is the default
+    Environment environment;
+    double metersPerUnit = 1;
+    float exposure = 1;
+};
+
+struct Bounds {
+    glm::vec3 low{std::numeric_limits<float>::max()};
+    glm::vec3 high{std::numeric_limits<float>::lowest()};
+    glm::vec3 center() const { return 0.5f * (low + high); }
+    float radius() const { return 0.5f * glm::length(high - low); }
+};
+
+/// Bounds of all instances in scene units; an empty scene throws SceneError.
+Bounds bounds(const Scene& scene);
+
+/// Triangles over all instances.
+std::uint64_t triangleCount(const Scene& scene);
+
+} // namespace nacre::scene
