@@ -1,0 +1,135 @@
+#include "scene/file.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace nacre::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what, int error) {
+    throw SceneError(file.string() + ": " + what + ": " + std::strerror(error));
+}
+
+class Descriptor {
+public:
+    explicit Descriptor(int value) : value_(value) {}
+    Descriptor(Descriptor&&) = delete;
+    ~Descriptor() {
+        if (value_ >= 0) {
+            ::close(value_);
+        }
+    }
+    int get() const { return value_; }
+    /// Closes early, because close() may be the first to report a full disk.
+    int close() { return ::close(std::exchange(value_, -1)); }
+
+private:
+    int value_;
+};
+
+/// False with errno set when not everything could be written.
+bool writeAll(int descriptor, std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written < 0) {
+            return false;
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+void writeInPlace(const fs::path& file, std::span<const std::uint8_t> bytes) {
+    Descriptor descriptor(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    if (descriptor.get() < 0 || !writeAll(descriptor.get(), bytes) || descriptor.close() != 0) {
+        fail(file, "cannot be written", errno);
+    }
+}
+
+/// A neighbour's name that no other process or thread uses.
+fs::path temporaryNeighbour(const fs::path& file) {
+    static std::atomic<unsigned> counter{0};
+    fs::path result = file;
+    result += ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    return result;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> readFile(const fs::path& file) {
+    Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    struct stat status {};
+    if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0) {
+        fail(file, "cannot be read", errno);
+    }
+    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) {
+        throw SceneError(file.string() + ": cannot be read: it is not a file");
+    }
+    const auto tooLarge = [&file] {
+        return SceneError(file.string() + ": is larger than " + std::to_string(maxFileBytes >> 20) +
+                          " MiB, the most that is read");
+    };
+    if (static_cast<std::uint64_t>(status.st_size) > maxFileBytes) {
+        throw tooLarge();
+    }
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(status.st_size));
+    std::size_t size = 0;
+    while (true) {
+        if (size == bytes.size()) {
+            bytes.resize(size + 65536);
+        }
+        const ssize_t count = ::read(descriptor.get(), bytes.data() + size, bytes.size() - size);
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count < 0) {
+            fail(file, "cannot be read", errno);
+        }
+        if (count == 0) {
+            break;
+        }
+        size += static_cast<std::size_t>(count);
+        if (size > maxFileBytes) {
+            throw tooLarge();
+        }
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes) {
+    struct stat status {};
+    fs::path target = file;
+    if (::stat(file.c_str(), &status) == 0) {
+        if (S_ISDIR(status.st_mode)) {
+            fail(file, "cannot be written", EISDIR);
+        }
+        if (!S_ISREG(status.st_mode)) {
+            return writeInPlace(file, bytes);
+        }
+        target = fs::canonical(file); // so that a link keeps pointing at what it points at
+    }
+    const fs::path temporary = temporaryNeighbour(target);
+    Descriptor descriptor(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (descriptor.get() < 0) {
+        fail(file, "cannot be written", errno);
+    }
+    if (!writeAll(descriptor.get(), bytes) || ::fsync(descriptor.get()) != 0 || descriptor.close() != 0 ||
+        ::rename(temporary.c_str(), target.c_str()) != 0) {
+        const int error = errno;
+        ::unlink(temporary.c_str());
+        fail(file, "cannot be written", error);
+    }
+}
+
+} // namespace nacre::scene

@@ -1,0 +1,176 @@
+#include "scene/image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <stb/stb_image.h>
+#include <tinyexr.h>
+
+namespace nacre::scene {
+namespace {
+
+/// Most pixels of a float image (1 GiB as RGBA).
+constexpr std::uint64_t maxFloatPixels = std::uint64_t{1} << 26;
+
+constexpr std::array<std::uint8_t, 4> exrMagic{0x76, 0x2f, 0x31, 0x01};
+
+/// tinyexr's error text, freed.
+std::string takeMessage(const char* message) {
+    std::string result = message != nullptr ? message : "unknown reason";
+    FreeEXRErrorMessage(message);
+    while (!result.empty() && (result.back() == '\n' || result.back() == '.')) {
+        result.pop_back();
+    }
+    return result;
+}
+
+struct ExrHeader : EXRHeader {
+    ExrHeader() { InitEXRHeader(this); }
+    ExrHeader(const ExrHeader&) = delete;
+    ~ExrHeader() { FreeEXRHeader(this); }
+};
+
+void checkSize(const std::string& name, std::int64_t width, std::int64_t height) {
+    if (width <= 0 || height <= 0 || std::max(width, height) > maxImageSide ||
+        static_cast<std::uint64_t>(width * height) > maxFloatPixels) {
+        throw SceneError(name + ": image of " + std::to_string(width) + " x " + std::to_string(height) +
+                         " pixels cannot be read, 1 to " + std::to_string(maxImageSide) + " a side and at most " +
+                         std::to_string(maxFloatPixels) + " in all");
+    }
+}
+
+FloatImage makeImage(const float* pixels, int width, int height) {
+    FloatImage image;
+    image.width = static_cast<std::uint32_t>(width);
+    image.height = static_cast<std::uint32_t>(height);
+    image.pixels.assign(pixels, pixels + std::size_t{image.width} * image.height * 4);
+    return image;
+}
+
+FloatImage decodeExr(std::span<const std::uint8_t> bytes, const std::string& name) {
+    EXRVersion version{};
+    if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS) {
+        throw SceneError(name + ": the OpenEXR header is damaged");
+    }
+    if (version.multipart != 0 || version.non_image != 0) {
+        throw SceneError(name + ": multi-part and deep OpenEXR files are not supported");
+    }
+    const char* message = nullptr;
+    bool oneChannel = false;
+    {
+        ExrHeader header;
+        if (ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+            throw SceneError(name + ": the OpenEXR header is damaged: " + takeMessage(message));
+        }
+        const EXRBox2i& box = header.data_window;
+        checkSize(name, std::int64_t{box.max_x} - box.min_x + 1, std::int64_t{box.max_y} - box.min_y + 1);
+        const std::span types(header.pixel_types, static_cast<std::size_t>(header.num_channels));
+        if (std::ranges::count(types, TINYEXR_PIXELTYPE_UINT) > 0) {
+            throw SceneError(name + ": integer channels of OpenEXR are not supported");
+        }
+        oneChannel = header.num_channels == 1;
+    }
+    float* decoded = nullptr;
+    int width = 0;
+    int height = 0;
+    if (LoadEXRFromMemory(&decoded, &width, &height, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+        throw SceneError(name + ": the OpenEXR file cannot be decoded: " + takeMessage(message));
+    }
+    const std::unique_ptr<float, decltype(&std::free)> owner(decoded, std::free);
+    FloatImage image = makeImage(decoded, width, height);
+    for (std::size_t alpha = 3; oneChannel && alpha < image.pixels.size(); alpha += 4) {
+        image.pixels[alpha] = 1; // tinyexr spreads a single channel over alpha too
+    }
+    return image;
+}
+
+FloatImage decodeHdr(std::span<const std::uint8_t> bytes, const std::string& name) {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    const int size = static_cast<int>(bytes.size());
+    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) {
+        throw SceneError(name + ": the Radiance header is damaged: " + stbi_failure_reason());
+    }
+    checkSize(name, width, height);
+    const std::unique_ptr<float, decltype(&stbi_image_free)> decoded(
+        stbi_loadf_from_memory(bytes.data(), size, &width, &height, &channels, STBI_rgb_alpha), stbi_image_free);
+    if (!decoded) {
+        throw SceneError(name + ": the Radiance file cannot be decoded: " + stbi_failure_reason());
+    }
+    return makeImage(decoded.get(), width, height);
+}
+
+} // namespace
+
+FloatImage readFloatImage(const std::filesystem::path& file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    if (bytes.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        if (bytes.size() >= exrMagic.size() && std::equal(exrMagic.begin(), exrMagic.end(), bytes.begin())) {
+            return decodeExr(bytes, file.string());
+        }
+        if (stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0) {
+            return decodeHdr(bytes, file.string());
+        }
+    }
+    throw SceneError(file.string() + ": is neither an OpenEXR nor a Radiance .hdr image");
+}
+
+void writeExr(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+              std::span<const std::string> channelNames, std::span<const float> pixels, ExrPrecision precision) {
+    const std::size_t channelCount = channelNames.size();
+    const std::size_t pixelCount = std::size_t{width} * height;
+    const bool namesFit = std::ranges::all_of(channelNames, [](const std::string& name) {
+        return !name.empty() && name.size() < sizeof(EXRChannelInfo::name);
+    });
+    if (pixelCount == 0 || channelCount == 0 || !namesFit || pixelCount * channelCount != pixels.size()) {
+        throw SceneError(file.string() + ": cannot write an OpenEXR file of " + std::to_string(width) + " x " +
+                         std::to_string(height) + " pixels and " + std::to_string(channelCount) + " channels from " +
+                         std::to_string(pixels.size()) + " values");
+    }
+    std::vector<std::size_t> order(channelCount); // the format wants its channels in alphabetical order
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t channel) { return channelNames[channel]; });
+
+    std::vector<std::vector<float>> planes(channelCount, std::vector<float>(pixelCount));
+    std::vector<unsigned char*> planePointers(channelCount);
+    std::vector<EXRChannelInfo> channels(channelCount, EXRChannelInfo{});
+    std::vector<int> types(channelCount, TINYEXR_PIXELTYPE_FLOAT);
+    std::vector<int> storedTypes(channelCount,
+                                 precision == ExrPrecision::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT);
+    for (std::size_t plane = 0; plane < channelCount; ++plane) {
+        for (std::size_t pixel = 0; pixel < pixelCount; ++pixel) {
+            planes[plane][pixel] = pixels[pixel * channelCount + order[plane]];
+        }
+        planePointers[plane] = reinterpret_cast<unsigned char*>(planes[plane].data());
+        std::strcpy(channels[plane].name, channelNames[order[plane]].c_str());
+    }
+
+    EXRImage image;
+    InitEXRImage(&image);
+    image.num_channels = static_cast<int>(channelCount);
+    image.images = planePointers.data();
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+    EXRHeader header;
+    InitEXRHeader(&header);
+    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+    header.num_channels = image.num_channels;
+    header.channels = channels.data();
+    header.pixel_types = types.data();
+    header.requested_pixel_types = storedTypes.data();
+
+    unsigned char* encoded = nullptr;
+    const char* message = nullptr;
+    const std::size_t size = SaveEXRImageToMemory(&image, &header, &encoded, &message);
+    const std::unique_ptr<unsigned char, decltype(&std::free)> owner(encoded, std::free);
+    if (size == 0) {
+        throw SceneError(file.string() + ": the OpenEXR encoder failed: " + takeMessage(message));
+    }
+    writeFileAtomically(file, std::span(encoded, size));
+}
+
+} // namespace nacre::scene
