@@ -20,15 +20,17 @@ struct Material {
 
     /// [1 … 32 layers] the profile as a sum of Gaussians.
     std::vector<Layer> layers;
-    /// [> 0] mm per channel: d of Burley's normalised diffusion (Christensen and Burley 2015), used when `layers` is empty.
+    /// [1e-6, 1e4] mm per channel: d of Burley's normalised diffusion (Christensen and Burley 2015), used when `layers`
+    /// is empty.
     std::optional<Rgb> meanFreePath;
 
     AlbedoUse albedoUse = AlbedoUse::Post;
-    /// [0, 1] how much of the light scatters; 0 leaves the surface as it is. Result = mix(irradiance, scattered, strength).
+    /// [0, 1] how much of the light scatters; 0 leaves the surface as it is. Result = mix(irradiance, scattered,
+    /// strength).
     double strength = 1;
     /// [0, 1] τ: the share of diffuse light that is transmission: albedo·((1 − τ)·scattered + τ·T(d)·back light).
     double translucency = 0.5;
-    /// [> 0] multiplies every length of the profile: 2 scatters twice as far.
+    /// [1e-6, 1e4] multiplies every length of the profile: 2 scatters twice as far.
     double scale = 1;
 
     /// [0, 1] diffuse albedo for surfaces that bring none of their own.
@@ -39,6 +41,10 @@ struct Material {
 
 /// The material's profile with `scale` applied. Throws std::invalid_argument naming the field when it has none.
 std::unique_ptr<Profile> makeProfile(const Material& material);
+
+/// The same profile as Gaussian layers, normalised per channel: the material's own, or burleyLayers of its mean free
+/// path. Throws std::invalid_argument as makeProfile does.
+std::vector<Layer> makeLayers(const Material& material);
 
 /// One sentence that names the first field out of range and its value; empty when the material is valid.
 std::string findFault(const Material& material);
