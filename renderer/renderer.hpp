@@ -13,8 +13,20 @@ namespace nacre::renderer {
 /// How the diffuse light of subsurface materials is spread.
 enum class Technique { Default, Separable, Brute };
 
-/// Images that can be read back.
-enum class Output { Color, Irradiance, Scattered, Transmitted, Depth, Normal, Material, Thickness, Albedo, Specular };
+/// Images that can be read back. Radiance is the picture before exposure and tone map, linear.
+enum class Output {
+    Color,
+    Irradiance,
+    Scattered,
+    Transmitted,
+    Depth,
+    Normal,
+    Material,
+    Thickness,
+    Albedo,
+    Specular,
+    Radiance
+};
 
 struct RenderSettings {
     std::uint32_t width = 1280;
@@ -32,15 +44,15 @@ struct PassTime {
 
 /// What the last frame did.
 struct FrameReport {
-    std::vector<PassTime> passes;        ///< in order of execution, the effect's passes included
-    double totalMicroseconds = 0;        ///< first to last timestamp
+    std::vector<PassTime> passes; ///< in order of execution, the effect's passes included
+    double totalMicroseconds = 0; ///< first to last timestamp
     std::uint32_t scatterDispatches = 0;
     std::uint32_t transmitDispatches = 0;
-    std::uint64_t effectBytes = 0;       ///< intermediates of the effect
+    std::uint64_t effectBytes = 0; ///< intermediates of the effect
     std::uint64_t triangles = 0;
     std::uint32_t lights = 0;
     std::uint32_t materials = 0;
-    double subsurfaceCoverage = 0;       ///< [0, 1] share of pixels with a subsurface material
+    double subsurfaceCoverage = 0; ///< [0, 1] share of pixels with a subsurface material
 };
 
 /// Pixels of one output: `channels` floats each, row 0 at the top. Color is 8-bit sRGB values / 255.
