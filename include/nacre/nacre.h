@@ -2,6 +2,7 @@
  *
  * THE CONTRACT
  *  1. Recording (nacreCmd*) never submits, waits, allocates, compiles or prints. Create, resize and set-materials may.
+ *     A frame is: nacreBeginFrame, then one nacreCmdScatter and nacreCmdTransmit per view, in any order.
  *  2. The caller's images keep their layout: NacreImage says which one they are in, and they leave in it. The library
  *     puts barriers only around its own intermediates.
  *       on entry  every input image is visible to VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_READ_BIT;
@@ -9,13 +10,15 @@
  *       on exit   outputs were written by VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_WRITE_BIT
  *     Clobbered: the command buffer's compute pipeline, compute descriptor sets and push constants.
  *  3. Vulkan 1.2 core. What a device and its images must bring can be asked before a device exists.
- *  4. No globals. Contexts are independent; one context is used by one thread at a time. Frames in flight and records
- *     per frame are create-time numbers; exceeding them is NACRE_ERROR_LIMIT_EXCEEDED.
+ *  4. No globals. Contexts are independent; one context is used by one thread at a time, and its recorded work runs on
+ *     one queue (intermediates are shared by the frames in flight). Frames in flight and records per frame are
+ *     create-time numbers; exceeding them is NACRE_ERROR_LIMIT_EXCEEDED.
  *  5. An error is a result code and a message (NacreContextInfo::messageCallback) that names the field and its value.
  *     After an error the command buffer is as it was. Every struct is zero-initialisable; 0 is stated per field.
  *  6. Optional inputs are NacreImages with a null view; each states its fallback.
  *  7. Masks are explicit: material id 0 means "no subsurface scattering here" and copies the irradiance. Black is a
  *     colour. What a rejected neighbour would have given is renormalised: a constant field stays constant to 1e-3.
+ *     An irradiance or depth that is not finite makes its pixel a source of nothing; it does not spread.
  *  8. Cost can be asked: dispatches, bytes of intermediates, pass names; every pass can be timed.
  *
  * CONVENTIONS
@@ -137,6 +140,9 @@ typedef struct NacreRequirements {
     uint32_t apiVersion; /**< VK_API_VERSION_1_2 */
     VkPhysicalDeviceFeatures features;
     VkPhysicalDeviceVulkan12Features features12; /**< sType set, pNext null */
+    uint32_t maxPerStageDescriptorSampledImages;  /**< least VkPhysicalDeviceLimits member of that name */
+    uint32_t maxPerStageDescriptorStorageImages;  /**< likewise */
+    uint32_t maxPerStageDescriptorStorageBuffers; /**< likewise */
 } NacreRequirements;
 
 /** What an image must bring. */
@@ -157,6 +163,8 @@ typedef struct NacreContextInfo {
     const VkAllocationCallbacks* allocator;        /**< host allocation callbacks; null = Vulkan's own */
     VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none */
     VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area; see nacreResize */
+    uint32_t techniques;       /**< bits 1u << NacreTechnique: those the context is made for; 0 = all. Fewer techniques
+                                    take less memory per pixel and per material (see nacreGetScatterCost) */
     uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
     uint32_t recordsPerFrame;  /**< [1 … 64] scatter calls, and transmit calls, per frame (views); 0 = 1 */
     uint32_t maxMaterials;     /**< [1 … 65535] largest material id; 0 = 64 */
@@ -224,7 +232,7 @@ typedef struct NacreTimestamps {
 
 typedef struct NacreScatterInfo {
     NacreView view;
-    uint32_t frame;           /**< [0 … framesInFlight) its previous use must have finished on the device */
+    uint32_t frame;           /**< [0 … framesInFlight) the one last given to nacreBeginFrame */
     NacreTechnique technique; /**< 0 = default */
     NacreImage irradiance;    /**< diffuse light without albedo and specular, linear */
     NacreImage depth;
@@ -258,7 +266,7 @@ typedef struct NacreLight {
 
 typedef struct NacreTransmitInfo {
     NacreView view;
-    uint32_t frame;
+    uint32_t frame;               /**< as in NacreScatterInfo */
     NacreImage depth;
     NacreImage materialId;
     NacreImage normal;            /**< required, as in NacreScatterInfo */
@@ -272,19 +280,21 @@ typedef struct NacreTransmitInfo {
     const NacreImage* shadowMaps; /**< 2D array views of linear depth */
     float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
-    VkBool32 thesisTransmittance; /**< T = sum w exp(-d²/v), the thesis's own form, in place of exp(-d²/2v) */
+    VkBool32 thesisTransmittance; /**< materials of layers: T = sum w exp(-d²/v), the thesis's own form, in place of
+                                       exp(-d²/2v) */
     NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none */
     NacreImage thicknessOut;      /**< optional output, red: the thickness used, mm, smallest over the lights that
                                        reach the pixel from behind; 0 = none */
     NacreTimestamps timestamps;
 } NacreTransmitInfo;
 
-/** What recording costs. */
+/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of materials and layers. */
 typedef struct NacreCost {
     uint32_t dispatchCount;
     uint32_t passCount;
     const char* const* passNames; /**< static storage */
-    VkDeviceSize intermediateBytes;
+    VkDeviceSize intermediateBytes; /**< device memory of the images and buffers between its passes, at maxExtent */
+    VkDeviceSize materialBytes;     /**< device memory its tables take per material and frame in flight */
 } NacreCost;
 
 /** The library's NACRE_HEADER_VERSION. */
@@ -304,9 +314,12 @@ NACRE_API void nacreDestroyContext(NacreContext context);
 /** Changes maxExtent. The device must have finished with the context's work. On failure the old extent stays. */
 NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent);
 /** Sets materials firstId … firstId + count - 1 (firstId >= 1). May be called while frames are in flight: a frame sees
- *  the materials set before it was recorded. On error nothing changes. */
+ *  the materials set before its nacreBeginFrame, whole. On error nothing changes. */
 NACRE_API NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count,
                                         const NacreMaterial* materials);
+/** Starts a frame: frame [0 … framesInFlight) may be recorded anew, with the materials set so far. The device must have
+ *  finished what was recorded with this number before. Host work only; nothing is allocated. */
+NACRE_API NacreResult nacreBeginFrame(NacreContext context, uint32_t frame);
 /** Light spreading under front-lit surfaces. */
 NACRE_API NacreResult nacreCmdScatter(NacreContext context, VkCommandBuffer commandBuffer, const NacreScatterInfo* info);
 /** Light coming through back-lit bodies. */
