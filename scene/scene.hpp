@@ -2,6 +2,7 @@
 // Right-handed, +Y up, metres after `metersPerUnit`; colours linear Rec.709.
 #pragma once
 
+#include "nacre/files.hpp"
 #include "nacre/material.hpp"
 
 #include <glm/glm.hpp>
@@ -17,9 +18,7 @@
 namespace nacre::scene {
 
 /// What is wrong with a file: one sentence that names the file, the field and the value.
-struct SceneError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
+using SceneError = FileError;
 
 inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 

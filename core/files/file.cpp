@@ -1,4 +1,4 @@
-#include "scene/file.hpp"
+#include "nacre/files.hpp"
 
 #include <atomic>
 #include <cerrno>
@@ -8,13 +8,13 @@
 #include <unistd.h>
 #include <utility>
 
-namespace nacre::scene {
+namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& what, int error) {
-    throw SceneError(file.string() + ": " + what + ": " + std::strerror(error));
+    throw FileError(file.string() + ": " + what + ": " + std::strerror(error));
 }
 
 class Descriptor {
@@ -66,20 +66,20 @@ fs::path temporaryNeighbour(const fs::path& file) {
 
 } // namespace
 
-std::vector<std::uint8_t> readFile(const fs::path& file) {
+std::vector<std::uint8_t> readFile(const fs::path& file, std::uint64_t maxBytes) {
     Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
     struct stat status {};
     if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0) {
         fail(file, "cannot be read", errno);
     }
     if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) {
-        throw SceneError(file.string() + ": cannot be read: it is not a file");
+        throw FileError(file.string() + ": cannot be read: it is not a file");
     }
-    const auto tooLarge = [&file] {
-        return SceneError(file.string() + ": is larger than " + std::to_string(maxFileBytes >> 20) +
-                          " MiB, the most that is read");
+    const auto tooLarge = [&] {
+        return FileError(file.string() + ": is larger than " + std::to_string(maxBytes >> 20) +
+                         " MiB, the most that is read");
     };
-    if (static_cast<std::uint64_t>(status.st_size) > maxFileBytes) {
+    if (static_cast<std::uint64_t>(status.st_size) > maxBytes) {
         throw tooLarge();
     }
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(status.st_size));
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> readFile(const fs::path& file) {
             break;
         }
         size += static_cast<std::size_t>(count);
-        if (size > maxFileBytes) {
+        if (size > maxBytes) {
             throw tooLarge();
         }
     }
@@ -132,4 +132,4 @@ void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> byt
     }
 }
 
-} // namespace nacre::scene
+} // namespace nacre
