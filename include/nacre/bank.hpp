@@ -1,0 +1,60 @@
+// The Gaussian bank: one fixed set of eight pixel-grid kernels, identity to 71 px, that any diffusion profile at any
+// scale is a non-negative mixture of. The `bank` technique blurs once with every kernel; profiles, layers and materials
+// differ only in the mixture's weights, so they cost nothing. docs/scatter.md tells the whole story.
+#pragma once
+
+#include "nacre/profile.hpp"
+
+#include <cstdint>
+
+namespace nacre {
+
+/// Levels of the pyramid; level l has texels 2^l px wide.
+inline constexpr int bankLevels = 6;
+/// Kernels: 0 is the identity, 1 the full-resolution [1 2 1]²/16, 1 + l the blurred pyramid level l.
+inline constexpr int bankSize = bankLevels + 2;
+
+/// What share of each kernel makes up a profile: weights[kernel][channel] ≥ 0, summing to 1 over the kernels.
+using BankWeights = std::array<Rgb, bankSize>;
+
+/// Variance of a kernel along one axis, px². Level l: 4^l · 5/4 = (4^l − 1)/12 + 4^l + (4^l/6 + 1/12): the box of the
+/// reduction, the 5x5 binomial, and the bilinear tent read at pixel centres.
+double bankVariance(int kernel);
+
+/// Edge response of a kernel on the pixel grid: element k is the share of light that crosses k + ½ px, 0 ≤ k < 256.
+/// Exact for the three filters applied one after the other, averaged over the pixel's position within the texel.
+std::span<const double> bankEdgeTail(int kernel);
+
+/// The mixture of kernels whose response to a shadow edge, at `pixelsPerMillimeter` [> 0], is closest to the profile's:
+/// least squares of the edge response plus a tenth of that of its derivative, over the 256 px next to the edge.
+BankWeights projectOnBank(const Profile& profile, double pixelsPerMillimeter);
+
+/// A profile's mixtures over all scales, as the shader reads them.
+class BankTable {
+public:
+    /// Bins of the table per doubling of px/mm. Weights between two bins are interpolated linearly: with 8 the edge
+    /// response is within 4e-4 of the projection at that very scale (tests/unit/bank_test.cpp), with 4 within 1.5e-3.
+    static constexpr int binsPerOctave = 8;
+    /// The table spans footprints (rms radius of the widest channel) of 2^firstOctave to 2^lastOctave px. Below, every
+    /// channel is the identity; above, every channel that is at most 16 times narrower is wider than the bank.
+    static constexpr int firstOctave = -4;
+    static constexpr int lastOctave = 10;
+    static constexpr int binCount = (lastOctave - firstOctave) * binsPerOctave + 1;
+    /// Half floats per bin: kernel 0 red, green, blue, kernel 1 red … (48 bytes).
+    static constexpr int halvesPerBin = 3 * bankSize;
+
+    explicit BankTable(const Profile& profile);
+
+    /// bin = binsPerOctave · log2(px/mm) + binOffset(), clamped to [0, binCount − 1].
+    float binOffset() const { return binOffset_; }
+    /// binCount · halvesPerBin IEEE half floats.
+    std::span<const std::uint16_t> halves() const { return halves_; }
+    /// The weights as the shader interpolates them.
+    BankWeights at(double pixelsPerMillimeter) const;
+
+private:
+    float binOffset_ = 0;
+    std::vector<std::uint16_t> halves_;
+};
+
+} // namespace nacre
