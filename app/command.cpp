@@ -1,0 +1,66 @@
+#include "app/command.hpp"
+
+#include "nacre/files.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iostream>
+#include <system_error>
+
+namespace nacre::app {
+
+namespace {
+
+const std::filesystem::path standardOutput = "-";
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
+    throw std::runtime_error(file.string() + ": cannot be written: " + reason);
+}
+
+} // namespace
+
+void checkWritable(const std::filesystem::path& file) {
+    if (file == standardOutput) {
+        return;
+    }
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (std::filesystem::is_directory(status)) {
+        refuse(file, "it is a folder");
+    }
+    if (std::filesystem::exists(status) && access(file.c_str(), W_OK) != 0) {
+        refuse(file, std::generic_category().message(errno));
+    }
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        return;
+    }
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, error)) {
+        refuse(file, "there is no folder '" + folder.string() + "'");
+    }
+    std::string probe = (folder / ".nacre-XXXXXX").string();
+    const int descriptor = mkstemp(probe.data());
+    if (descriptor < 0) {
+        refuse(file, std::generic_category().message(errno));
+    }
+    close(descriptor);
+    unlink(probe.c_str());
+}
+
+void writeText(const std::filesystem::path& file, std::string_view text) {
+    if (file == standardOutput) {
+        std::cout << text;
+        return;
+    }
+    writeFileAtomically(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+CLI::Option* addJsonOption(CLI::App& command, std::filesystem::path& file) {
+    return command.add_option("--json", file, "Write the results as JSON; - is standard output")->type_name("FILE");
+}
+
+} // namespace nacre::app

@@ -1,0 +1,36 @@
+// What the subcommands of `nacre` share.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
+
+namespace nacre::app {
+
+/// The command was called wrongly; ends the program with exit code 2. Every other exception ends it with 1.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Each adds one subcommand, with its options and what it runs.
+void addRender(CLI::App& app);
+void addMaterial(CLI::App& app);
+void addDevices(CLI::App& app);
+
+/// Throws std::runtime_error, naming the file, where `file` cannot be written: its folder is missing or not writable,
+/// or it is a folder itself. "-" is standard output. Leaves nothing behind.
+void checkWritable(const std::filesystem::path& file);
+
+/// Writes `text` to `file`, whole or not at all; "-" is standard output.
+void writeText(const std::filesystem::path& file, std::string_view text);
+
+/// "--json" of every subcommand that has results.
+CLI::Option* addJsonOption(CLI::App& command, std::filesystem::path& file);
+
+} // namespace nacre::app

@@ -1,0 +1,78 @@
+// The command `nacre`: parses, runs one subcommand, and turns what went wrong into one sentence and an exit code.
+#include "app/command.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <new>
+
+namespace {
+
+constexpr int success = 0;
+constexpr int failure = 1;
+constexpr int wrongUsage = 2;
+
+constexpr const char* examples = R"(Examples:
+  nacre render -o gallery.png                           the built-in gallery
+  nacre render model.glb --material skin --back         any model, lit from behind
+  nacre render scene.json -o frame.exr --json frame.json
+  nacre material list                                   what there is to render with
+  nacre devices                                         what there is to render on
+`nacre COMMAND --help` tells the rest.)";
+
+int complain(std::string sentence, int exitCode) {
+    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+    std::cerr << "nacre: " << sentence << '\n';
+    return exitCode;
+}
+
+/// "nacre render", for the hint where to read on.
+std::string commandLine(const CLI::App& app) {
+    std::string result = app.get_name();
+    for (const CLI::App* command = &app; !command->get_subcommands().empty();) {
+        command = command->get_subcommands().front();
+        result += ' ' + command->get_name();
+    }
+    return result;
+}
+
+int run(CLI::App& app, int argumentCount, char** arguments) {
+    try {
+        app.parse(argumentCount, arguments);
+        if (app.get_subcommands().empty()) {
+            std::cout << app.help();
+        }
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+            app.exit(error);
+        } else {
+            return complain(std::string(error.what()) + " (see `" + commandLine(app) + " --help`)", wrongUsage);
+        }
+    }
+    std::cout.flush();
+    if (!std::cout) {
+        throw std::runtime_error("cannot write to standard output");
+    }
+    return success;
+}
+
+} // namespace
+
+int main(int argumentCount, char** arguments) {
+    try {
+        CLI::App app("Nacre renders light that travels under a surface: skin, marble, wax, jade, leaves.", "nacre");
+        app.set_version_flag("--version", "nacre " NACRE_VERSION);
+        app.footer(examples);
+        nacre::app::addRender(app);
+        nacre::app::addMaterial(app);
+        nacre::app::addDevices(app);
+        return run(app, argumentCount, arguments);
+    } catch (const nacre::app::UsageError& error) {
+        return complain(error.what(), wrongUsage);
+    } catch (const std::bad_alloc&) {
+        return complain("there is not enough memory for this", failure);
+    } catch (const std::exception& error) {
+        return complain(error.what(), failure);
+    }
+}

@@ -1,0 +1,146 @@
+// `nacre material`: the presets, what a material does, and whether a material file is right.
+#include "app/command.hpp"
+#include "app/material_source.hpp"
+#include "nacre/files.hpp"
+#include "nacre/presets.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace nacre::app {
+
+namespace {
+
+constexpr std::array slabThicknesses{0.5, 1.0, 2.0, 5.0, 10.0}; // mm, from an eyelid to an ear lobe and beyond
+
+void listMaterials(const std::filesystem::path& json) {
+    if (!json.empty()) {
+        checkWritable(json);
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const Material& material : presets()) {
+            list.push_back({{"name", material.name}, {"description", material.description}});
+        }
+        writeText(json, nlohmann::ordered_json{{"schemaVersion", 1}, {"materials", list}}.dump(2) + '\n');
+        return;
+    }
+    for (const Material& material : presets()) {
+        std::cout << std::left << std::setw(16) << material.name << material.description << '\n';
+    }
+}
+
+std::string row(const std::string& label, const Rgb& values) {
+    std::ostringstream text;
+    text << "  " << std::left << std::setw(34) << label << std::right << std::setprecision(4);
+    for (const double value : values) {
+        text << std::setw(11) << value;
+    }
+    return text.str() + '\n';
+}
+
+template <typename Function> Rgb eachChannel(Function function) {
+    return {function(0), function(1), function(2)};
+}
+
+std::string number(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+std::string describeProfile(const Material& material) {
+    const std::unique_ptr<Profile> profile = makeProfile(material);
+    std::string text = row("rms radius, mm", eachChannel([&](int channel) { return profile->rmsRadius(channel); }));
+    for (const double share : {0.5, 0.9, 0.99}) {
+        text += row("radius of " + number(share * 100) + " % of the light, mm",
+                    eachChannel([&](int channel) { return profile->inverseCdf(channel, share); }));
+    }
+    for (const double thickness : slabThicknesses) {
+        text += row("through " + number(thickness) + " mm",
+                    eachChannel([&](int channel) { return profile->slabTransmittance(channel, thickness); }));
+    }
+    return text;
+}
+
+std::string describeLayers(const Material& material) {
+    if (material.layers.empty()) {
+        return row("mean free path, mm", material.meanFreePath.value_or(Rgb{}));
+    }
+    std::string text;
+    for (const Layer& layer : material.layers) {
+        text += row("layer, variance " + number(layer.variance) + " mm²", layer.weight);
+    }
+    return text;
+}
+
+std::string describe(const Material& material) {
+    std::ostringstream text;
+    text << material.name << ": " << material.description << '\n'
+         << "  strength " << material.strength << ", translucency " << material.translucency << ", scale "
+         << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "pre-and-post")
+         << ", roughness " << material.roughness << ", specular " << material.specular << '\n'
+         << "  " << std::setw(34) << "" << std::setw(11) << "red" << std::setw(11) << "green" << std::setw(11) << "blue"
+         << '\n';
+    return text.str() + row("albedo", material.albedo) + describeLayers(material) + describeProfile(material);
+}
+
+void showMaterial(const std::string& nameOrFile, const std::filesystem::path& json) {
+    if (!json.empty()) {
+        checkWritable(json);
+    }
+    const Material material = readMaterial(nameOrFile);
+    if (json.empty()) {
+        std::cout << describe(material);
+    } else {
+        writeText(json, formatMaterial(material));
+    }
+}
+
+void checkMaterials(const std::vector<std::filesystem::path>& files) {
+    for (const std::filesystem::path& file : files) {
+        const Material material = loadMaterial(file);
+        std::cout << file.string() << ": '" << material.name << "' is a valid material\n";
+    }
+}
+
+void addList(CLI::App& material) {
+    CLI::App* command = material.add_subcommand("list", "List the presets");
+    const auto json = std::make_shared<std::filesystem::path>();
+    addJsonOption(*command, *json);
+    command->callback([json] { listMaterials(*json); });
+}
+
+void addShow(CLI::App& material) {
+    CLI::App* command = material.add_subcommand("show", "Say what a material does, or write it as a material file");
+    command->footer("Example, to start a material of one's own:\n  nacre material show skin --json my-skin.json");
+    const auto nameOrFile = std::make_shared<std::string>();
+    const auto json = std::make_shared<std::filesystem::path>();
+    command->add_option("MATERIAL", *nameOrFile, "A preset's name or a material file")->required()->type_name("");
+    addJsonOption(*command, *json);
+    command->callback([nameOrFile, json] { showMaterial(*nameOrFile, *json); });
+}
+
+void addCheck(CLI::App& material) {
+    CLI::App* command = material.add_subcommand("check", "Check material files: exit code 0 when all are valid");
+    const auto files = std::make_shared<std::vector<std::filesystem::path>>();
+    command->add_option("FILE", *files, "Material files (docs/schemas/material.schema.json)")
+        ->required()
+        ->type_name("");
+    command->callback([files] { checkMaterials(*files); });
+}
+
+} // namespace
+
+void addMaterial(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("material", "List, show and check subsurface materials");
+    command->require_subcommand(1);
+    addList(*command);
+    addShow(*command);
+    addCheck(*command);
+}
+
+} // namespace nacre::app

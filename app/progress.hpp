@@ -1,0 +1,19 @@
+// One line on standard error for work that takes longer than a second.
+#pragma once
+
+#include <string>
+#include <thread>
+
+namespace nacre::app {
+
+/// Says "<what> … <seconds> s" on standard error once its life exceeds a second: on a terminal as a line that counts
+/// and disappears at the end, elsewhere as one line.
+class Progress {
+public:
+    explicit Progress(std::string what);
+
+private:
+    std::jthread thread_;
+};
+
+} // namespace nacre::app

@@ -1,0 +1,107 @@
+// `nacre render`: one picture of a scene, and the images and figures behind it.
+#include "app/command.hpp"
+#include "app/progress.hpp"
+#include "app/render_options.hpp"
+#include "app/render_scene.hpp"
+#include "app/report.hpp"
+#include "scene/image.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace nacre::app {
+
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  nacre render -o gallery.png
+  nacre render --back --no-transmit --no-scatter -o off.png
+  nacre render bunny.obj --material jade --camera-position 0,0.1,0.3
+  nacre render scene.json -o frame.exr --aov depth=depth.exr --json frame.json)";
+
+void writePicture(const std::filesystem::path& file, const renderer::Renderer& renderer) {
+    if (file.extension() == ".exr") {
+        const renderer::Pixels pixels = renderer.read(renderer::Output::Radiance);
+        scene::writeExr(file, pixels.width, pixels.height, pixels.channels, pixels.values);
+        return;
+    }
+    const renderer::Pixels pixels = renderer.read(renderer::Output::Color);
+    std::vector<std::uint8_t> bytes(pixels.values.size());
+    std::ranges::transform(pixels.values, bytes.begin(),
+                           [](float value) { return static_cast<std::uint8_t>(std::lround(value * 255)); });
+    scene::writePng(file, pixels.width, pixels.height, static_cast<int>(pixels.channels.size()), bytes);
+}
+
+void writeAov(const AovOutput& aov, const renderer::Renderer& renderer) {
+    const renderer::Pixels pixels = renderer.read(aov.output);
+    scene::writeExr(aov.file, pixels.width, pixels.height, pixels.channels, pixels.values);
+}
+
+void checkOutputs(const RenderOptions& options) {
+    checkWritable(options.output);
+    for (const AovOutput& aov : options.aovs) {
+        checkWritable(aov.file);
+    }
+    if (!options.json.empty()) {
+        checkWritable(options.json);
+    }
+}
+
+void summarise(const RenderOptions& options, const renderer::DeviceDescription& device,
+               const renderer::FrameReport& frame) {
+    std::cout << options.output.string() << ": " << sceneName(options) << ", " << options.settings.width << 'x'
+              << options.settings.height << ", " << frame.triangles << " triangles, " << frame.materials
+              << " materials, " << frame.lights << " lights\n"
+              << "frame " << std::lround(frame.totalMicroseconds) << " µs on " << device.name << ", scatter "
+              << frame.scatterDispatches << " and transmit " << frame.transmitDispatches << " dispatches\n";
+}
+
+void failOnValidation(const std::vector<std::string>& messages) {
+    if (!messages.empty()) {
+        throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
+                                 " messages, the first: " + messages.front());
+    }
+}
+
+void render(const RenderOptions& options) {
+    checkOutputs(options);
+    renderer::Device device(options.device);
+    const scene::Scene scene = [&] {
+        const Progress progress("loading " + sceneName(options));
+        return makeScene(options);
+    }();
+    const scene::Camera camera = makeCamera(options, scene);
+    renderer::FrameReport frame;
+    {
+        const Progress progress("rendering " + sceneName(options));
+        renderer::Renderer renderer(device, scene, options.settings);
+        renderer.render(camera);
+        writePicture(options.output, renderer);
+        for (const AovOutput& aov : options.aovs) {
+            writeAov(aov, renderer);
+        }
+        frame = renderer.report();
+    }
+    if (!options.json.empty()) {
+        writeText(options.json,
+                  makeReport(options, scene, camera, device.description(), frame, device.validationMessages()));
+    }
+    if (options.json != "-") {
+        summarise(options, device.description(), frame);
+    }
+    failOnValidation(device.validationMessages());
+}
+
+} // namespace
+
+void addRender(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene, a model or the built-in gallery to an image");
+    command->footer(footer);
+    const auto parser = std::make_shared<RenderOptionParser>(*command);
+    command->callback([parser] { render(parser->finish()); });
+}
+
+} // namespace nacre::app

@@ -1,0 +1,234 @@
+#include "app/render_options.hpp"
+
+#include "app/command.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace nacre::app {
+
+namespace {
+
+using renderer::Output;
+using renderer::Technique;
+
+template <typename Value> struct Named {
+    std::string_view name;
+    Value value;
+};
+
+constexpr std::array techniques{
+    Named<Technique>{"default", Technique::Default},
+    Named<Technique>{"separable", Technique::Separable},
+    Named<Technique>{"brute", Technique::Brute},
+};
+
+constexpr std::array aovs{
+    Named<Output>{"irradiance", Output::Irradiance},   Named<Output>{"scattered", Output::Scattered},
+    Named<Output>{"transmitted", Output::Transmitted}, Named<Output>{"depth", Output::Depth},
+    Named<Output>{"normal", Output::Normal},           Named<Output>{"material", Output::Material},
+    Named<Output>{"thickness", Output::Thickness},     Named<Output>{"albedo", Output::Albedo},
+    Named<Output>{"specular", Output::Specular},
+};
+
+constexpr double maxExposure = 32;
+constexpr std::uint32_t minShadowMapSize = 16;
+constexpr std::uint32_t maxShadowMapSize = 16384;
+
+template <typename Value, std::size_t count> std::string names(const std::array<Named<Value>, count>& table) {
+    std::string result;
+    for (const Named<Value>& entry : table) {
+        result += (result.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    return result;
+}
+
+template <typename Value, std::size_t count>
+Value find(const std::array<Named<Value>, count>& table, std::string_view name, const std::string& kind) {
+    const auto entry = std::ranges::find(table, name, &Named<Value>::name);
+    if (entry == table.end()) {
+        throw UsageError("there is no " + kind + " '" + std::string(name) + "', only " + names(table));
+    }
+    return entry->value;
+}
+
+void parseSize(const std::string& text, renderer::RenderSettings& settings) {
+    const char* const end = text.data() + text.size();
+    std::uint64_t width = 0;
+    std::uint64_t height = 0;
+    const auto first = std::from_chars(text.data(), end, width);
+    const bool separated = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+    const auto second = separated ? std::from_chars(first.ptr + 1, end, height) : first;
+    if (!separated || second.ec != std::errc() || second.ptr != end) {
+        throw UsageError("--size '" + text + "' is not WIDTHxHEIGHT in pixels, for example 1280x720");
+    }
+    if (width < 1 || height < 1 || width > maxPictureSide || height > maxPictureSide) {
+        const std::string limit = std::to_string(maxPictureSide);
+        throw UsageError("--size " + text + " is outside 1x1 to " + limit + 'x' + limit);
+    }
+    settings.width = static_cast<std::uint32_t>(width);
+    settings.height = static_cast<std::uint32_t>(height);
+}
+
+AovOutput parseAov(const std::string& text) {
+    const std::size_t separator = text.find('=');
+    if (separator == std::string::npos) {
+        throw UsageError("--aov '" + text + "' is not NAME=FILE.exr");
+    }
+    const std::string name = text.substr(0, separator);
+    const std::filesystem::path file = text.substr(separator + 1);
+    const Output output = find(aovs, name, "AOV");
+    if (file.extension() != ".exr") {
+        throw UsageError("--aov " + name + ": the file '" + file.string() + "' does not end in .exr");
+    }
+    return {output, name, file};
+}
+
+std::optional<glm::vec3> parsePoint(const std::vector<double>& values, const std::string& option) {
+    if (values.empty()) {
+        return std::nullopt;
+    }
+    for (const double value : values) {
+        if (!std::isfinite(static_cast<float>(value))) {
+            throw UsageError(option + ": " + std::to_string(value) + " is not a position");
+        }
+    }
+    return glm::vec3(values[0], values[1], values[2]);
+}
+
+void requireRange(double value, double low, double high, const std::string& option) {
+    if (!(value >= low && value <= high)) {
+        std::array<char, 128> text{};
+        std::snprintf(text.data(), text.size(), " %g is outside %g to %g", value, low, high);
+        throw UsageError(option + text.data());
+    }
+}
+
+/// No output may replace another one or the input.
+void requireDistinctFiles(const RenderOptions& options) {
+    std::vector<std::filesystem::path> files{options.input, options.material, options.output, options.json};
+    std::ranges::transform(options.aovs, std::back_inserter(files), &AovOutput::file);
+    std::erase(files, std::filesystem::path());
+    std::ranges::transform(files, files.begin(), [](const std::filesystem::path& file) {
+        return std::filesystem::absolute(file).lexically_normal();
+    });
+    std::ranges::sort(files);
+    const auto twin = std::ranges::adjacent_find(files);
+    if (twin != files.end()) {
+        throw UsageError("the same file is given twice: '" + twin->string() + "'");
+    }
+}
+
+} // namespace
+
+std::string_view techniqueName(Technique technique) {
+    return std::ranges::find(techniques, technique, &Named<Technique>::value)->name;
+}
+
+RenderOptionParser::RenderOptionParser(CLI::App& command) {
+    command
+        .add_option("SCENE", options_.input,
+                    "A scene file or a model: glTF, GLB, OBJ, PLY, STL, 3DS, FBX …; "
+                    "without it the built-in gallery")
+        ->type_name("");
+    command.add_option("-o,--output", options_.output, "The picture: FILE.png (sRGB) or FILE.exr (linear)")
+        ->type_name("FILE")
+        ->capture_default_str();
+    command.add_option("--size", size_, "Pixels of the picture")->type_name("WxH")->capture_default_str();
+    command
+        .add_option("--material", options_.material,
+                    "Give every body this material: a preset (see `nacre material list`) or a material file")
+        ->type_name("NAME|FILE");
+
+    const std::string light = "Light";
+    command.add_flag("--front", front_, "Only the lights on the camera's side; the same as --light front")
+        ->group(light);
+    command.add_flag("--back", back_, "Only the lights behind; the same as --light back")->group(light);
+    command
+        .add_option("--light", options_.lights,
+                    "front, back, both, or the name of a light; may be repeated. Where a scene has no light on the "
+                    "side asked for, a built-in one shines")
+        ->type_name("SIDE|NAME")
+        ->group(light);
+    command.add_option("--exposure", exposure_, "Brighter (> 0) or darker (< 0) by powers of two")
+        ->type_name("EV")
+        ->group(light);
+
+    const std::string camera = "Camera";
+    command.add_option("--camera", options_.camera, "One of the scene's cameras; without it the first")
+        ->type_name("NAME|NUMBER")
+        ->group(camera);
+    command.add_option("--camera-position", cameraPosition_, "Where the camera is, in scene units")
+        ->type_name("X,Y,Z")
+        ->delimiter(',')
+        ->expected(3)
+        ->group(camera);
+    command.add_option("--camera-target", cameraTarget_, "What the camera looks at, in scene units")
+        ->type_name("X,Y,Z")
+        ->delimiter(',')
+        ->expected(3)
+        ->group(camera);
+    command.add_option("--fov", fieldOfView_, "Vertical field of view")->type_name("DEGREES")->group(camera);
+
+    const std::string effect = "Effect";
+    command.add_option("--technique", technique_, "How light is spread: " + names(techniques))
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->group(effect);
+    command.add_flag("--no-scatter", noScatter_, "Leave out light spreading under lit surfaces")->group(effect);
+    command.add_flag("--no-transmit", noTransmit_, "Leave out light coming through thin parts")->group(effect);
+    command.add_option("--shadow-map-size", options_.settings.shadowMapSize, "Texels a side of each shadow map")
+        ->type_name("N")
+        ->capture_default_str()
+        ->group(effect);
+
+    const std::string results = "Results and device";
+    command.add_option("--aov", aovs_, "Write one more image, may be repeated: " + names(aovs))
+        ->type_name("NAME=FILE.exr")
+        ->group(results);
+    addJsonOption(command, options_.json)->group(results);
+    command.add_option("--device", options_.device.name, "Number or part of the name, see `nacre devices`")
+        ->type_name("DEVICE")
+        ->group(results);
+    command
+        .add_flag("--validation", options_.device.validation,
+                  "Run under the Vulkan validation layer; a message of it is a failure")
+        ->group(results);
+}
+
+RenderOptions RenderOptionParser::finish() const {
+    RenderOptions options = options_;
+    parseSize(size_, options.settings);
+    options.settings.technique = find(techniques, technique_, "technique");
+    options.settings.scatter = !noScatter_;
+    options.settings.transmit = !noTransmit_;
+    requireRange(options.settings.shadowMapSize, minShadowMapSize, maxShadowMapSize, "--shadow-map-size");
+    if (options.output.extension() != ".png" && options.output.extension() != ".exr") {
+        throw UsageError("--output '" + options.output.string() + "' ends neither in .png nor in .exr");
+    }
+    if (front_) {
+        options.lights.emplace_back("front");
+    }
+    if (back_) {
+        options.lights.emplace_back("back");
+    }
+    requireRange(exposure_, -maxExposure, maxExposure, "--exposure");
+    options.exposure = static_cast<float>(exposure_);
+    options.cameraPosition = parsePoint(cameraPosition_, "--camera-position");
+    options.cameraTarget = parsePoint(cameraTarget_, "--camera-target");
+    if (fieldOfView_) {
+        requireRange(*fieldOfView_, 1, 170, "--fov");
+        options.fieldOfView = static_cast<float>(*fieldOfView_ * std::numbers::pi / 180);
+    }
+    std::ranges::transform(aovs_, std::back_inserter(options.aovs), parseAov);
+    requireDistinctFiles(options);
+    return options;
+}
+
+} // namespace nacre::app

@@ -1,0 +1,20 @@
+// The scene and camera that `nacre render` was asked for.
+#pragma once
+
+#include "app/render_options.hpp"
+#include "scene/scene.hpp"
+
+namespace nacre::app {
+
+/// "gallery", or the file's name.
+std::string sceneName(const RenderOptions& options);
+
+/// Loads the scene or builds the gallery, and applies --material, --light and --exposure.
+/// Throws UsageError, scene::SceneError or std::runtime_error with one sentence.
+scene::Scene makeScene(const RenderOptions& options);
+
+/// --camera, then --camera-position, --camera-target and --fov on top of it.
+/// Throws std::runtime_error when the scene has no such camera or the camera looks nowhere.
+scene::Camera makeCamera(const RenderOptions& options, const scene::Scene& scene);
+
+} // namespace nacre::app

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Every test: the whole suite optimised, then the CPU tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+scripts/install-packages.sh
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+run_preset() {
+    cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1" --parallel "$(nproc)" | tee -a "$log"
+}
+
+status=0
+for preset in release asan; do
+    echo "== $preset ==" | tee -a "$log"
+    run_preset "$preset" || status=$?
+done
+
+echo
+grep -E '^== |tests passed|Total Test time|\((Failed|Timeout|Not Run|SEGFAULT|.*Exception.*|.*Subprocess.*)\)$' "$log" || true
+exit "$status"
