@@ -4,14 +4,12 @@
 #include "nacre/files.hpp"
 #include "nacre/presets.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace nacre::app {
 
 Material readMaterial(const std::string& nameOrFile) {
-    const auto preset = std::ranges::find(presets(), nameOrFile, &Material::name);
-    if (preset != presets().end()) {
+    if (const Material* preset = findPreset(nameOrFile)) {
         return *preset;
     }
     const std::filesystem::path file = nameOrFile;

@@ -16,12 +16,6 @@ namespace nacre::app {
 
 namespace {
 
-constexpr const char* footer = R"(Examples:
-  nacre render -o gallery.png
-  nacre render --back --no-transmit --no-scatter -o off.png
-  nacre render bunny.obj --material jade --camera-position 0,0.1,0.3
-  nacre render scene.json -o frame.exr --aov depth=depth.exr --json frame.json)";
-
 void writePicture(const std::filesystem::path& file, const renderer::Renderer& renderer) {
     if (file.extension() == ".exr") {
         const renderer::Pixels pixels = renderer.read(renderer::Output::Radiance);
@@ -99,7 +93,6 @@ void render(const RenderOptions& options) {
 
 void addRender(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render a scene, a model or the built-in gallery to an image");
-    command->footer(footer);
     const auto parser = std::make_shared<RenderOptionParser>(*command);
     command->callback([parser] { render(parser->finish()); });
 }

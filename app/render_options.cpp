@@ -90,16 +90,22 @@ AovOutput parseAov(const std::string& text) {
     return {output, name, file};
 }
 
-std::optional<glm::vec3> parsePoint(const std::vector<double>& values, const std::string& option) {
-    if (values.empty()) {
+std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& option) {
+    if (text.empty()) {
         return std::nullopt;
     }
-    for (const double value : values) {
-        if (!std::isfinite(static_cast<float>(value))) {
-            throw UsageError(option + ": " + std::to_string(value) + " is not a position");
+    glm::vec3 point(0);
+    const char* position = text.data();
+    const char* const end = position + text.size();
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool separated = axis == 0 || (position != end && *position++ == ',');
+        const auto [next, error] = std::from_chars(position, end, point[axis]);
+        if (!separated || error != std::errc() || !std::isfinite(point[axis]) || (axis == 2 && next != end)) {
+            throw UsageError(option + " '" + text + "' is not X,Y,Z, for example 0,1.5,-2");
         }
+        position = next;
     }
-    return glm::vec3(values[0], values[1], values[2]);
+    return point;
 }
 
 void requireRange(double value, double low, double high, const std::string& option) {
@@ -132,74 +138,57 @@ std::string_view techniqueName(Technique technique) {
 }
 
 RenderOptionParser::RenderOptionParser(CLI::App& command) {
-    command
-        .add_option("SCENE", options_.input,
-                    "A scene file or a model: glTF, GLB, OBJ, PLY, STL, 3DS, FBX …; "
-                    "without it the built-in gallery")
+    const auto add = [&command](const std::string& group, const std::string& name, auto& value,
+                                const std::string& description, const std::string& type) {
+        command.add_option(name, value, description)->type_name(type)->group(group);
+    };
+    const auto addFlag = [&command](const std::string& group, const std::string& name, bool& value,
+                                    const std::string& description) {
+        command.add_flag(name, value, description)->group(group);
+    };
+    command.add_option("SCENE", options_.input, "A scene file or a model; without it the built-in gallery")
         ->type_name("");
-    command.add_option("-o,--output", options_.output, "The picture: FILE.png (sRGB) or FILE.exr (linear)")
-        ->type_name("FILE")
-        ->capture_default_str();
-    command.add_option("--size", size_, "Pixels of the picture")->type_name("WxH")->capture_default_str();
-    command
-        .add_option("--material", options_.material,
-                    "Give every body this material: a preset (see `nacre material list`) or a material file")
-        ->type_name("NAME|FILE");
+
+    const std::string picture = "Picture";
+    add(picture, "-o,--output", options_.output,
+        "FILE.png (sRGB) or FILE.exr (linear); default " + options_.output.string(), "FILE");
+    add(picture, "--size", size_, "Pixels; default " + size_, "WxH");
+    add(picture, "--exposure", exposure_, "Brighter (> 0) or darker (< 0) by powers of two", "EV");
+    add(picture, "--material", options_.material, "Give every body this material: a preset or a material file",
+        "NAME|FILE");
 
     const std::string light = "Light";
-    command.add_flag("--front", front_, "Only the lights on the camera's side; the same as --light front")
-        ->group(light);
-    command.add_flag("--back", back_, "Only the lights behind; the same as --light back")->group(light);
-    command
-        .add_option("--light", options_.lights,
-                    "front, back, both, or the name of a light; may be repeated. Where a scene has no light on the "
-                    "side asked for, a built-in one shines")
-        ->type_name("SIDE|NAME")
-        ->group(light);
-    command.add_option("--exposure", exposure_, "Brighter (> 0) or darker (< 0) by powers of two")
-        ->type_name("EV")
-        ->group(light);
+    addFlag(light, "--front", front_, "Only the lights on the camera's side, as --light front");
+    addFlag(light, "--back", back_, "Only the lights on the far side, as --light back");
+    add(light, "--light", options_.lights, "front, back, both, or a light's name; may be repeated", "SIDE|NAME");
 
     const std::string camera = "Camera";
-    command.add_option("--camera", options_.camera, "One of the scene's cameras; without it the first")
-        ->type_name("NAME|NUMBER")
-        ->group(camera);
-    command.add_option("--camera-position", cameraPosition_, "Where the camera is, in scene units")
-        ->type_name("X,Y,Z")
-        ->delimiter(',')
-        ->expected(3)
-        ->group(camera);
-    command.add_option("--camera-target", cameraTarget_, "What the camera looks at, in scene units")
-        ->type_name("X,Y,Z")
-        ->delimiter(',')
-        ->expected(3)
-        ->group(camera);
-    command.add_option("--fov", fieldOfView_, "Vertical field of view")->type_name("DEGREES")->group(camera);
+    add(camera, "--camera", options_.camera, "One of the scene's cameras; default the first", "NAME|NUMBER");
+    add(camera, "--camera-position", cameraPosition_, "Where the camera is, scene units", "X,Y,Z");
+    add(camera, "--camera-target", cameraTarget_, "What the camera looks at, scene units", "X,Y,Z");
+    add(camera, "--fov", fieldOfView_, "Vertical field of view", "DEGREES");
 
     const std::string effect = "Effect";
-    command.add_option("--technique", technique_, "How light is spread: " + names(techniques))
-        ->type_name("NAME")
-        ->capture_default_str()
-        ->group(effect);
-    command.add_flag("--no-scatter", noScatter_, "Leave out light spreading under lit surfaces")->group(effect);
-    command.add_flag("--no-transmit", noTransmit_, "Leave out light coming through thin parts")->group(effect);
-    command.add_option("--shadow-map-size", options_.settings.shadowMapSize, "Texels a side of each shadow map")
-        ->type_name("N")
-        ->capture_default_str()
-        ->group(effect);
+    add(effect, "--technique", technique_, "How light is spread: " + names(techniques), "NAME");
+    addFlag(effect, "--no-scatter", noScatter_, "Leave out light spreading under lit surfaces");
+    addFlag(effect, "--no-transmit", noTransmit_, "Leave out light coming through thin parts");
+    add(effect, "--shadow-map-size", options_.settings.shadowMapSize,
+        "Texels a side; default " + std::to_string(options_.settings.shadowMapSize), "N");
 
     const std::string results = "Results and device";
-    command.add_option("--aov", aovs_, "Write one more image, may be repeated: " + names(aovs))
-        ->type_name("NAME=FILE.exr")
-        ->group(results);
+    add(results, "--aov", aovs_, "One more image, may be repeated", "NAME=FILE.exr");
     addJsonOption(command, options_.json)->group(results);
-    command.add_option("--device", options_.device.name, "Number or part of the name, see `nacre devices`")
-        ->type_name("DEVICE")
-        ->group(results);
-    command
-        .add_flag("--validation", options_.device.validation,
-                  "Run under the Vulkan validation layer; a message of it is a failure")
-        ->group(results);
+    add(results, "--device", options_.device.name, "Number or part of the name, see `nacre devices`", "DEVICE");
+    addFlag(results, "--validation", options_.device.validation, "Fail where the Vulkan validation layer complains");
+
+    command.footer("AOVs: " + names(aovs) + R"(
+--front and --back turn on a built-in light where the scene has none on that side.
+
+Examples:
+  nacre render -o gallery.png
+  nacre render --back --no-transmit --no-scatter -o off.png
+  nacre render bunny.obj --material jade --camera-position 0,0.1,0.3
+  nacre render scene.json -o frame.exr --aov depth=depth.exr --json frame.json)");
 }
 
 RenderOptions RenderOptionParser::finish() const {

@@ -40,7 +40,7 @@ struct RenderOptions {
 /// Largest width and height of a picture, px.
 inline constexpr std::uint32_t maxPictureSide = 16384;
 
-/// "default", "separable" …
+/// As --technique names it: "default", "separable" …
 std::string_view techniqueName(renderer::Technique technique);
 
 /// Adds the options to `command`. They are in `options` once the command line has been parsed and `finish` called.
@@ -56,8 +56,8 @@ private:
     std::string size_ = "1280x720";
     std::string technique_ = "default";
     std::vector<std::string> aovs_;
-    std::vector<double> cameraPosition_;
-    std::vector<double> cameraTarget_;
+    std::string cameraPosition_;
+    std::string cameraTarget_;
     std::optional<double> fieldOfView_; ///< [degrees]
     double exposure_ = 0;
     bool front_ = false;
