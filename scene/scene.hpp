@@ -136,6 +136,8 @@ struct Scene {
     Environment environment;
     double metersPerUnit = 1;
     float exposure = 1;
+    /// What an importer had to leave out or simplify, a sentence each, beginning with the file.
+    std::vector<std::string> notes;
 };
 
 struct Bounds {

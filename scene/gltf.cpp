@@ -1,0 +1,275 @@
+#include "scene/gltf.hpp"
+
+#include "scene/gltf_material.hpp"
+#include "scene/gltf_mesh.hpp"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <map>
+
+namespace nacre::scene {
+namespace {
+
+/// Instances of one file: more than this is an attack or an accident.
+constexpr std::size_t maxInstances = std::size_t{1} << 20;
+
+std::string nodeField(int node) {
+    return "nodes[" + std::to_string(node) + "]";
+}
+
+glm::vec3 vec3Of(const GltfFile& file, const std::vector<double>& values, const glm::vec3& fallback,
+                 const std::string& field) {
+    if (values.empty()) {
+        return fallback;
+    }
+    if (values.size() != 3) {
+        failGltf(file, field + " must be an array of 3 numbers");
+    }
+    return {values[0], values[1], values[2]};
+}
+
+glm::mat4 localTransform(const GltfFile& file, int index) {
+    const tinygltf::Node& node = file.model.nodes[static_cast<std::size_t>(index)];
+    const std::string field = nodeField(index);
+    glm::mat4 transform(1);
+    if (!node.matrix.empty()) {
+        if (node.matrix.size() != 16) {
+            failGltf(file, field + ".matrix must be an array of 16 numbers");
+        }
+        transform = glm::mat4(glm::make_mat4(node.matrix.data()));
+    } else {
+        glm::quat rotation(1, 0, 0, 0);
+        if (!node.rotation.empty()) {
+            if (node.rotation.size() != 4) {
+                failGltf(file, field + ".rotation must be an array of 4 numbers");
+            }
+            const auto part = [&](std::size_t i) { return static_cast<float>(node.rotation[i]); };
+            rotation = glm::normalize(glm::quat(part(3), part(0), part(1), part(2)));
+        }
+        transform[3] = glm::vec4(vec3Of(file, node.translation, glm::vec3(0), field + ".translation"), 1);
+        const glm::vec3 scale = vec3Of(file, node.scale, glm::vec3(1), field + ".scale");
+        const glm::mat3 linear = glm::mat3_cast(rotation) * glm::mat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
+        for (int column = 0; column < 3; ++column) {
+            transform[column] = glm::vec4(linear[column], 0);
+        }
+    }
+    for (int i = 0; i < 16; ++i) {
+        if (!(std::abs(transform[i / 4][i % 4]) <= maxCoordinate)) {
+            failGltf(file, field + " has a transform that is not finite or beyond 1e15");
+        }
+    }
+    return transform;
+}
+
+class Importer {
+public:
+    Importer(const GltfFile& file, Scene& scene) : file_(file), scene_(scene), materials_(file, scene) {}
+
+    void run() {
+        placeNodes();
+        for (const int node : order_) {
+            addNode(node);
+        }
+        if (skipped_ > 0) {
+            scene_.notes.push_back(file_.path.string() + ": " + std::to_string(skipped_) +
+                                   " primitives of points or lines are not drawn");
+        }
+        if (scene_.instances.empty()) {
+            failGltf(file_, skipped_ > 0 ? "has points or lines, but no triangles" : "has no triangles");
+        }
+    }
+
+private:
+    const tinygltf::Node& node(int index) const { return file_.model.nodes[static_cast<std::size_t>(index)]; }
+
+    /// The default scene's roots, or, without scenes, every node that is nobody's child.
+    std::vector<int> roots() const {
+        if (!file_.model.scenes.empty()) {
+            return elementOf(file_, file_.model.scenes, std::max(file_.model.defaultScene, 0), "scene").nodes;
+        }
+        std::vector<bool> isChild(file_.model.nodes.size());
+        for (const tinygltf::Node& parent : file_.model.nodes) {
+            for (const int child : parent.children) {
+                if (child >= 0 && static_cast<std::size_t>(child) < isChild.size()) {
+                    isChild[static_cast<std::size_t>(child)] = true;
+                }
+            }
+        }
+        std::vector<int> result;
+        for (std::size_t i = 0; i < isChild.size(); ++i) {
+            if (!isChild[i]) {
+                result.push_back(static_cast<int>(i));
+            }
+        }
+        return result;
+    }
+
+    /// World transforms of all nodes of the scene, parents first.
+    void placeNodes() {
+        transforms_.assign(file_.model.nodes.size(), glm::mat4(1));
+        std::vector<bool> reached(file_.model.nodes.size());
+        std::vector<std::pair<int, int>> stack; // node, parent
+        const std::vector<int> first = roots();
+        for (auto root = first.rbegin(); root != first.rend(); ++root) {
+            stack.emplace_back(*root, -1);
+        }
+        while (!stack.empty()) {
+            const auto [index, parent] = stack.back();
+            stack.pop_back();
+            elementOf(file_, file_.model.nodes, index, parent < 0 ? "scene.nodes" : nodeField(parent) + ".children");
+            const auto at = static_cast<std::size_t>(index);
+            if (reached[at]) {
+                failGltf(file_, nodeField(index) + " is reached twice: nodes must form a tree");
+            }
+            reached[at] = true;
+            transforms_[at] = localTransform(file_, index);
+            if (parent >= 0) {
+                transforms_[at] = transforms_[static_cast<std::size_t>(parent)] * transforms_[at];
+            }
+            order_.push_back(index);
+            const std::vector<int>& children = node(index).children;
+            for (auto child = children.rbegin(); child != children.rend(); ++child) {
+                stack.emplace_back(*child, index);
+            }
+        }
+    }
+
+    void addNode(int index) {
+        const tinygltf::Node& source = node(index);
+        if (source.mesh >= 0) {
+            elementOf(file_, file_.model.meshes, source.mesh, nodeField(index) + ".mesh");
+            addMesh(index, source);
+        }
+        if (source.camera >= 0) {
+            addCamera(elementOf(file_, file_.model.cameras, source.camera, nodeField(index) + ".camera"), index);
+        }
+        const GltfObject light(file_, source.extensions, "KHR_lights_punctual", nodeField(index));
+        if (light.exists()) {
+            addLight(light.index("light"), index);
+        }
+    }
+
+    void addMesh(int index, const tinygltf::Node& source) {
+        const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(source.mesh)];
+        // A skin or morph weights of its own make a mesh this node's; otherwise nodes share it.
+        const bool own = source.skin >= 0 || !source.weights.empty();
+        const auto& weights = source.weights.empty() ? mesh.weights : source.weights;
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            std::uint32_t target = none;
+            if (own) {
+                target = buildMesh(source, i, weights);
+            } else {
+                const auto [shared, isNew] = meshes_.try_emplace({source.mesh, i}, none);
+                if (isNew) {
+                    shared->second = buildMesh(source, i, weights);
+                }
+                target = shared->second;
+            }
+            if (target == none) {
+                continue;
+            }
+            if (scene_.instances.size() >= maxInstances) {
+                failGltf(file_, "places more than " + std::to_string(maxInstances) + " meshes");
+            }
+            const bool skinned = source.skin >= 0;
+            scene_.instances.push_back({source.name.empty() ? mesh.name : source.name, target,
+                                        skinned ? glm::mat4(1) : transforms_[static_cast<std::size_t>(index)]});
+        }
+    }
+
+    std::uint32_t buildMesh(const tinygltf::Node& source, std::size_t primitive, std::span<const double> weights) {
+        const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(source.mesh)];
+        std::optional<GltfPrimitive> read = readPrimitive(file_, source.mesh, primitive);
+        if (!read) {
+            ++skipped_;
+            return none;
+        }
+        if (read->indices.empty()) {
+            return none;
+        }
+        applyMorphTargets(file_, source.mesh, primitive, weights, *read);
+        if (source.skin >= 0) {
+            applySkin(file_, source.skin, transforms_, *read);
+        }
+        const std::uint32_t surface = materials_.surface(mesh.primitives[primitive].material);
+        const Surface& look = scene_.surfaces[surface];
+        const bool needsTangents = look.normalTexture != none;
+        Mesh result = makeMesh(*read, materials_.texCoord(surface), needsTangents, look.uvTransform);
+        result.name = mesh.name;
+        result.surface = surface;
+        scene_.meshes.push_back(std::move(result));
+        return static_cast<std::uint32_t>(scene_.meshes.size() - 1);
+    }
+
+    void addCamera(const tinygltf::Camera& source, int index) {
+        const glm::mat4& transform = transforms_[static_cast<std::size_t>(index)];
+        const std::string field = "cameras[" + std::to_string(node(index).camera) + "]";
+        Camera camera;
+        camera.name = source.name.empty() ? node(index).name : source.name;
+        camera.position = glm::vec3(transform[3]);
+        camera.target = camera.position - glm::normalize(glm::vec3(transform[2]));
+        camera.up = glm::normalize(glm::vec3(transform[1]));
+        if (source.type == "orthographic") {
+            camera.projection = ProjectionKind::Orthographic;
+            camera.orthographicHeight = static_cast<float>(
+                2 * checkRange(file_, std::abs(source.orthographic.ymag), 1e-9, 1e9, field + ".orthographic.ymag"));
+        } else {
+            camera.verticalFieldOfView =
+                static_cast<float>(checkRange(file_, source.perspective.yfov, 1e-3, 3.14, field + ".perspective.yfov"));
+        }
+        scene_.cameras.push_back(std::move(camera));
+    }
+
+    void addLight(int light, int index) {
+        const tinygltf::Light& source =
+            elementOf(file_, file_.model.lights, light, nodeField(index) + ".extensions.KHR_lights_punctual.light");
+        const std::string field = "extensions.KHR_lights_punctual.lights[" + std::to_string(light) + "]";
+        const glm::mat4& transform = transforms_[static_cast<std::size_t>(index)];
+        constexpr double most = 1e12;
+        Light result;
+        result.name = source.name.empty() ? node(index).name : source.name;
+        if (source.type == "directional" || source.type == "spot" || source.type == "point") {
+            result.kind = source.type == "directional" ? LightKind::Directional
+                          : source.type == "spot"      ? LightKind::Spot
+                                                       : LightKind::Point;
+        } else {
+            failGltf(file_, field + ".type is \"" + source.type + "\", must be directional, spot or point");
+        }
+        if (!source.color.empty()) {
+            result.color = vec3Of(file_, source.color, glm::vec3(1), field + ".color");
+            for (int i = 0; i < 3; ++i) {
+                checkRange(file_, result.color[i], 0, most, field + ".color");
+            }
+        }
+        result.intensity = static_cast<float>(checkRange(file_, source.intensity, 0, most, field + ".intensity"));
+        result.range = static_cast<float>(checkRange(file_, source.range, 0, most, field + ".range"));
+        result.position = glm::vec3(transform[3]);
+        result.direction = -glm::normalize(glm::vec3(transform[2]));
+        constexpr double quarterTurn = 1.5707963267948966;
+        result.outerConeAngle = static_cast<float>(
+            checkRange(file_, source.spot.outerConeAngle, 1e-4, quarterTurn, field + ".spot.outerConeAngle"));
+        result.innerConeAngle = static_cast<float>(
+            checkRange(file_, source.spot.innerConeAngle, 0, result.outerConeAngle, field + ".spot.innerConeAngle"));
+        scene_.lights.push_back(std::move(result));
+    }
+
+    const GltfFile& file_;
+    Scene& scene_;
+    GltfMaterials materials_;
+    std::vector<glm::mat4> transforms_;
+    std::vector<int> order_;
+    std::map<std::pair<int, std::size_t>, std::uint32_t> meshes_;
+    std::size_t skipped_ = 0;
+};
+
+} // namespace
+
+Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+    const GltfFile file = openGltf(path, bytes);
+    Scene scene;
+    scene.name = path.stem().string();
+    Importer(file, scene).run();
+    return scene;
+}
+
+} // namespace nacre::scene

@@ -1,0 +1,278 @@
+#include "scene/gltf_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <meshoptimizer.h>
+
+namespace nacre::scene {
+namespace {
+
+using tinygltf::Value;
+
+/// `size` bytes from `offset` on, or a SceneError.
+std::span<const std::uint8_t> slice(const GltfFile& file, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                                    std::uint64_t size, const std::string& field) {
+    if (offset > bytes.size() || size > bytes.size() - offset) {
+        failGltf(file, field + " reaches from byte " + std::to_string(offset) + " over " + std::to_string(size) +
+                           " bytes, but there are only " + std::to_string(bytes.size()));
+    }
+    return bytes.subspan(offset, size);
+}
+
+std::uint64_t wholeNumber(const GltfFile& file, const Value& object, const char* key, const std::string& field) {
+    const Value& value = object.Get(key);
+    const double number = value.IsNumber() ? value.GetNumberAsDouble() : (object.Has(key) ? -1.0 : 0.0);
+    if (!(number >= 0 && number <= 4294967295.0 && number == std::floor(number))) {
+        failGltf(file, field + "." + key + " must be a whole number, 0 or more");
+    }
+    return static_cast<std::uint64_t>(number);
+}
+
+std::string textOf(const Value& object, const char* key, const char* fallback) {
+    const Value& value = object.Get(key);
+    return value.IsString() ? value.Get<std::string>() : fallback;
+}
+
+/// EXT_meshopt_compression: one buffer view.
+Bytes decodeMeshopt(const GltfFile& file, const Value& extension, const std::string& field) {
+    const auto number = [&](const char* key) { return wholeNumber(file, extension, key, field); };
+    const std::uint64_t count = number("count");
+    const std::uint64_t stride = number("byteStride");
+    const std::string mode = textOf(extension, "mode", "");
+    const std::string filter = textOf(extension, "filter", "NONE");
+    const auto& buffer = elementOf(file, file.buffers, static_cast<int>(number("buffer")), field + ".buffer");
+    const auto source = slice(file, buffer, number("byteOffset"), number("byteLength"), field);
+    if (stride == 0 || stride > 256 || count > maxGltfViewBytes / stride) {
+        failGltf(file, field + " has " + std::to_string(count) + " elements of " + std::to_string(stride) +
+                           " bytes, which is not possible");
+    }
+    const bool octahedral = filter == "OCTAHEDRAL" && (stride == 4 || stride == 8);
+    const bool quaternion = filter == "QUATERNION" && stride == 8;
+    const bool exponential = filter == "EXPONENTIAL" && stride % 4 == 0;
+    if (filter != "NONE" && (mode != "ATTRIBUTES" || !(octahedral || quaternion || exponential))) {
+        failGltf(file, field + ".filter \"" + filter + "\" does not go with mode \"" + mode + "\" and byteStride " +
+                           std::to_string(stride));
+    }
+    Bytes result(count * stride);
+    int error = -1;
+    if (mode == "ATTRIBUTES" && stride % 4 == 0) {
+        error = meshopt_decodeVertexBuffer(result.data(), count, stride, source.data(), source.size());
+    } else if (mode == "TRIANGLES" && count % 3 == 0 && (stride == 2 || stride == 4)) {
+        error = meshopt_decodeIndexBuffer(result.data(), count, stride, source.data(), source.size());
+    } else if (mode == "INDICES" && (stride == 2 || stride == 4)) {
+        error = meshopt_decodeIndexSequence(result.data(), count, stride, source.data(), source.size());
+    } else {
+        failGltf(file, field + ".mode \"" + mode + "\" does not go with byteStride " + std::to_string(stride) +
+                           " and count " + std::to_string(count));
+    }
+    if (error != 0) {
+        failGltf(file, field + " cannot be decompressed: its data are damaged");
+    }
+    if (octahedral) {
+        meshopt_decodeFilterOct(result.data(), count, stride);
+    } else if (quaternion) {
+        meshopt_decodeFilterQuat(result.data(), count, stride);
+    } else if (exponential) {
+        meshopt_decodeFilterExp(result.data(), count, stride);
+    }
+    return result;
+}
+
+std::uint64_t componentBytes(const GltfFile& file, int type, const std::string& field) {
+    const int size = type == TINYGLTF_COMPONENT_TYPE_DOUBLE || type == TINYGLTF_COMPONENT_TYPE_INT
+                         ? -1
+                         : tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type));
+    if (size <= 0) {
+        failGltf(file, field + ".componentType is " + std::to_string(type) + ", must be 5120 to 5123, 5125 or 5126");
+    }
+    return static_cast<std::uint64_t>(size);
+}
+
+template <typename T> T load(const std::uint8_t* from) {
+    T value;
+    std::memcpy(&value, from, sizeof(T));
+    return value;
+}
+
+template <typename T> float loadInteger(const std::uint8_t* from, bool normalized) {
+    const auto value = static_cast<float>(load<T>(from));
+    return normalized ? std::max(value / static_cast<float>(std::numeric_limits<T>::max()), -1.0f) : value;
+}
+
+float loadComponent(const std::uint8_t* from, int type, bool normalized) {
+    switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return loadInteger<std::int8_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return loadInteger<std::uint8_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return loadInteger<std::int16_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return loadInteger<std::uint16_t>(from, normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return loadInteger<std::uint32_t>(from, normalized);
+    default:
+        return load<float>(from);
+    }
+}
+
+std::uint32_t loadIndex(const std::uint8_t* from, int type) {
+    switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return *from;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return load<std::uint16_t>(from);
+    default:
+        return load<std::uint32_t>(from);
+    }
+}
+
+/// Elements in a buffer view: byte ranges are checked, `stride` 0 means tightly packed.
+struct Elements {
+    const std::uint8_t* first = nullptr;
+    std::uint64_t stride = 0;
+};
+
+Elements locate(const GltfFile& file, int view, std::uint64_t offset, std::uint64_t count, std::uint64_t size,
+                const std::string& field) {
+    const auto bytes = viewBytes(file, view, field + ".bufferView");
+    const std::uint64_t declared = file.model.bufferViews[static_cast<std::size_t>(view)].byteStride;
+    const std::uint64_t stride = declared != 0 ? declared : size;
+    if (declared > 252) {
+        failGltf(file, "bufferViews[" + std::to_string(view) + "].byteStride is " + std::to_string(declared) +
+                           ", must be 4 to 252");
+    }
+    const std::uint64_t length = count == 0 ? 0 : (count - 1) * stride + size;
+    return {slice(file, bytes, offset, length, field).data(), stride};
+}
+
+std::vector<std::uint32_t> readSparseIndices(const GltfFile& file, const tinygltf::Accessor& accessor,
+                                             const std::string& field) {
+    const auto& sparse = accessor.sparse;
+    const std::string name = field + ".sparse.indices";
+    const auto count = static_cast<std::uint64_t>(sparse.count);
+    if (sparse.count < 0 || count > accessor.count || sparse.indices.byteOffset < 0) {
+        failGltf(file, field + ".sparse.count is " + std::to_string(sparse.count) + ", must be 0 to " +
+                           std::to_string(accessor.count));
+    }
+    const int type = sparse.indices.componentType;
+    const Elements elements =
+        locate(file, sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset), count,
+               componentBytes(file, type, name), name);
+    std::vector<std::uint32_t> indices(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        indices[i] = loadIndex(elements.first + i * elements.stride, type);
+        if (indices[i] >= accessor.count) {
+            failGltf(file, name + "[" + std::to_string(i) + "] is " + std::to_string(indices[i]) + ", must be below " +
+                               std::to_string(accessor.count));
+        }
+    }
+    return indices;
+}
+
+void checkCount(const GltfFile& file, const tinygltf::Accessor& accessor, const std::string& name) {
+    // Without a buffer view nothing in the file bears the count out.
+    const std::size_t most = accessor.bufferView >= 0 ? maxGltfElements : maxGltfElements / 16;
+    if (accessor.count > most) {
+        failGltf(file,
+                 name + ".count is " + std::to_string(accessor.count) + ", must be at most " + std::to_string(most));
+    }
+}
+
+std::string nameOf(int accessor) {
+    return "accessors[" + std::to_string(accessor) + "]";
+}
+
+} // namespace
+
+std::span<const std::uint8_t> viewBytes(const GltfFile& file, int view, const std::string& field) {
+    const tinygltf::BufferView& bufferView = elementOf(file, file.model.bufferViews, view, field);
+    if (const Bytes& decoded = file.decodedViews[static_cast<std::size_t>(view)]; !decoded.empty()) {
+        return decoded;
+    }
+    const std::string name = "bufferViews[" + std::to_string(view) + "]";
+    const Bytes& buffer = elementOf(file, file.buffers, bufferView.buffer, name + ".buffer");
+    return slice(file, buffer, bufferView.byteOffset, bufferView.byteLength, name);
+}
+
+void decodeMeshoptViews(GltfFile& file) {
+    file.decodedViews.resize(file.model.bufferViews.size());
+    for (std::size_t i = 0; i < file.decodedViews.size(); ++i) {
+        const auto& extensions = file.model.bufferViews[i].extensions;
+        const auto found = extensions.find("EXT_meshopt_compression");
+        if (found != extensions.end() && found->second.IsObject()) {
+            file.decodedViews[i] = decodeMeshopt(
+                file, found->second, "bufferViews[" + std::to_string(i) + "].extensions.EXT_meshopt_compression");
+        }
+    }
+}
+
+int componentCount(const GltfFile& file, int accessor, const std::string& field) {
+    const tinygltf::Accessor& source = elementOf(file, file.model.accessors, accessor, field);
+    return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(source.type));
+}
+
+std::vector<float> readFloats(const GltfFile& file, int accessor, int components, const std::string& field) {
+    const tinygltf::Accessor& source = elementOf(file, file.model.accessors, accessor, field);
+    const std::string name = nameOf(accessor);
+    const int actual = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(source.type));
+    if (components != 0 && actual != components) {
+        failGltf(file, name + ".type has " + std::to_string(actual) + " components, but " + field + " needs " +
+                           std::to_string(components));
+    }
+    const auto width = static_cast<std::uint64_t>(actual);
+    const std::uint64_t size = componentBytes(file, source.componentType, name);
+    checkCount(file, source, name);
+    std::vector<float> result;
+    const auto copy = [&](const Elements& from, std::uint64_t element, std::uint64_t target) {
+        for (std::uint64_t c = 0; c < width; ++c) {
+            result[target * width + c] =
+                loadComponent(from.first + element * from.stride + c * size, source.componentType, source.normalized);
+        }
+    };
+    if (source.bufferView >= 0) {
+        const Elements elements = locate(file, source.bufferView, source.byteOffset, source.count, size * width, name);
+        result.resize(source.count * width);
+        for (std::uint64_t i = 0; i < source.count; ++i) {
+            copy(elements, i, i);
+        }
+    } else {
+        result.resize(source.count * width);
+    }
+    if (source.sparse.isSparse) {
+        const std::vector<std::uint32_t> indices = readSparseIndices(file, source, name);
+        const auto& values = source.sparse.values;
+        if (values.byteOffset < 0) {
+            failGltf(file, name + ".sparse.values.byteOffset is " + std::to_string(values.byteOffset));
+        }
+        const Elements elements = locate(file, values.bufferView, static_cast<std::uint64_t>(values.byteOffset),
+                                         indices.size(), size * width, name + ".sparse.values");
+        for (std::uint64_t i = 0; i < indices.size(); ++i) {
+            copy(elements, i, indices[i]);
+        }
+    }
+    return result;
+}
+
+std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor, const std::string& field) {
+    const tinygltf::Accessor& source = elementOf(file, file.model.accessors, accessor, field);
+    const std::string name = nameOf(accessor);
+    const int type = source.componentType;
+    if (source.type != TINYGLTF_TYPE_SCALAR ||
+        (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
+        failGltf(file, name + " holds " + field + " and must be of unsigned integers");
+    }
+    checkCount(file, source, name);
+    const Elements elements =
+        locate(file, source.bufferView, source.byteOffset, source.count, componentBytes(file, type, name), name);
+    std::vector<std::uint32_t> result(source.count);
+    for (std::uint64_t i = 0; i < source.count; ++i) {
+        result[i] = loadIndex(elements.first + i * elements.stride, type);
+    }
+    return result;
+}
+
+} // namespace nacre::scene

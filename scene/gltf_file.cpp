@@ -1,0 +1,322 @@
+#include "scene/gltf_file.hpp"
+
+#include "scene/file.hpp"
+#include "scene/gltf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace nacre::scene {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint32_t glbMagic = 0x46546c67; // "glTF"
+constexpr std::uint32_t glbJsonChunk = 0x4e4f534a;
+constexpr std::uint32_t glbBinaryChunk = 0x004e4942;
+/// Deeper JSON is refused: tinygltf reads extensions recursively.
+constexpr int maxJsonDepth = 64;
+
+/// What is understood, or concerns only looks that this renderer does not have.
+constexpr std::array knownExtensions{"EXT_meshopt_compression",
+                                     "KHR_draco_mesh_compression",
+                                     "KHR_lights_punctual",
+                                     "KHR_materials_anisotropy",
+                                     "KHR_materials_clearcoat",
+                                     "KHR_materials_diffuse_transmission",
+                                     "KHR_materials_dispersion",
+                                     "KHR_materials_emissive_strength",
+                                     "KHR_materials_ior",
+                                     "KHR_materials_iridescence",
+                                     "KHR_materials_pbrSpecularGlossiness",
+                                     "KHR_materials_scatter",
+                                     "KHR_materials_sheen",
+                                     "KHR_materials_specular",
+                                     "KHR_materials_transmission",
+                                     "KHR_materials_unlit",
+                                     "KHR_materials_variants",
+                                     "KHR_materials_volume",
+                                     "KHR_materials_volume_scatter",
+                                     "KHR_mesh_quantization",
+                                     "KHR_texture_transform"};
+
+std::uint32_t wordAt(std::span<const std::uint8_t> bytes, std::size_t offset) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + offset, sizeof(word));
+    return word;
+}
+
+std::string quoted(std::string text) {
+    if (text.size() > 80) {
+        text = text.substr(0, 77) + "...";
+    }
+    return "\"" + text + "\"";
+}
+
+struct Container {
+    std::span<const std::uint8_t> json;
+    std::span<const std::uint8_t> binary;
+};
+
+Container openContainer(const GltfFile& file, std::span<const std::uint8_t> bytes) {
+    if (bytes.size() < 12 || wordAt(bytes, 0) != glbMagic) {
+        return {bytes, {}};
+    }
+    const std::uint32_t length = wordAt(bytes, 8);
+    if (length > bytes.size()) {
+        failGltf(file, "is truncated: its header says " + std::to_string(length) + " bytes, it has " +
+                           std::to_string(bytes.size()));
+    }
+    Container container;
+    bytes = bytes.subspan(0, std::max(length, 12u));
+    for (std::size_t offset = 12, chunk = 0; offset + 8 <= bytes.size(); ++chunk) {
+        const std::size_t size = wordAt(bytes, offset);
+        const std::uint32_t type = wordAt(bytes, offset + 4);
+        offset += 8;
+        if (size > bytes.size() - offset) {
+            failGltf(file, "is truncated: chunk " + std::to_string(chunk) + " has " + std::to_string(size) +
+                               " bytes, the file only " + std::to_string(bytes.size() - offset) + " more");
+        }
+        if (chunk == 0 && type == glbJsonChunk) {
+            container.json = bytes.subspan(offset, size);
+        } else if (chunk == 1 && type == glbBinaryChunk) {
+            container.binary = bytes.subspan(offset, size);
+        }
+        offset += size;
+    }
+    if (container.json.empty()) {
+        failGltf(file, "has no JSON chunk");
+    }
+    return container;
+}
+
+/// The JSON without `extras`, which nothing here reads.
+Json parseJson(const GltfFile& file, std::span<const std::uint8_t> text) {
+    const auto filter = [&file](int depth, Json::parse_event_t event, Json& parsed) {
+        if (depth > maxJsonDepth) {
+            failGltf(file, "its JSON is nested more than " + std::to_string(maxJsonDepth) + " deep");
+        }
+        return event != Json::parse_event_t::key || parsed != "extras";
+    };
+    Json json;
+    try {
+        json = Json::parse(text.begin(), text.end(), filter);
+    } catch (const Json::exception& error) {
+        const std::string_view message = error.what();
+        failGltf(file,
+                 "is not valid JSON: " + std::string(message.substr(std::min(message.find("] ") + 2, message.size()))));
+    }
+    if (!json.is_object()) {
+        failGltf(file, "is not a JSON object");
+    }
+    return json;
+}
+
+/// Takes an array of objects out of the document.
+std::vector<Json> takeObjects(const GltfFile& file, Json& document, const std::string& key) {
+    const auto found = document.find(key);
+    if (found == document.end()) {
+        return {};
+    }
+    if (!found->is_array() || !std::ranges::all_of(*found, [](const Json& item) { return item.is_object(); })) {
+        failGltf(file, key + " must be an array of objects");
+    }
+    std::vector<Json> items(found->begin(), found->end());
+    document.erase(found);
+    return items;
+}
+
+void checkExtensions(const GltfFile& file, const Json& document) {
+    const auto required = document.find("extensionsRequired");
+    if (required == document.end()) {
+        return;
+    }
+    if (!required->is_array()) {
+        failGltf(file, "extensionsRequired must be an array of strings");
+    }
+    for (const Json& name : *required) {
+        if (!name.is_string() || std::ranges::find(knownExtensions, name.get<std::string>()) == knownExtensions.end()) {
+            failGltf(file, "requires the extension " + name.dump() + ", which is not supported");
+        }
+    }
+}
+
+const Json* findObject(const Json& parent, const char* key) {
+    const auto found = parent.find(key);
+    return found != parent.end() && found->is_object() ? &*found : nullptr;
+}
+
+Bytes loadBuffer(const GltfFile& file, const Json& buffer, const std::string& field,
+                 std::span<const std::uint8_t> binary) {
+    const auto length = buffer.find("byteLength");
+    if (length == buffer.end() || !length->is_number_unsigned()) {
+        failGltf(file, field + ".byteLength must be a whole number");
+    }
+    const auto size = length->get<std::uint64_t>();
+    const auto uri = buffer.find("uri");
+    const Json* extensions = findObject(buffer, "extensions");
+    const Json* meshopt = extensions != nullptr ? findObject(*extensions, "EXT_meshopt_compression") : nullptr;
+    Bytes bytes;
+    if (uri != buffer.end()) {
+        if (!uri->is_string()) {
+            failGltf(file, field + ".uri must be a string");
+        }
+        bytes = readUri(file, uri->get<std::string>(), field + ".uri");
+    } else if (meshopt != nullptr && meshopt->value("fallback", Json()) == true) {
+        return {}; // what it would hold is decompressed from other buffers
+    } else if (!binary.empty()) {
+        bytes.assign(binary.begin(), binary.end());
+    } else {
+        failGltf(file, field + " has no uri and the file no binary chunk");
+    }
+    if (bytes.size() < size) {
+        failGltf(file, field + " has " + std::to_string(bytes.size()) + " bytes, but its byteLength is " +
+                           std::to_string(size));
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+GltfImage readImage(const GltfFile& file, const Json& image, const std::string& field) {
+    GltfImage result;
+    const auto uri = image.find("uri");
+    const auto view = image.find("bufferView");
+    if (uri != image.end() && uri->is_string()) {
+        result.uri = uri->get<std::string>();
+    } else if (view != image.end() && view->is_number_integer()) {
+        result.bufferView = view->get<int>();
+    } else {
+        failGltf(file, field + " has neither a uri nor a bufferView");
+    }
+    if (const auto name = image.find("name"); name != image.end() && name->is_string()) {
+        result.name = name->get<std::string>();
+    }
+    return result;
+}
+
+/// Draco brings its own indices; tinygltf would refuse the accessor that only counts them.
+void dropDracoIndices(Json& document) {
+    const auto meshes = document.find("meshes");
+    if (meshes == document.end() || !meshes->is_array()) {
+        return;
+    }
+    for (Json& mesh : *meshes) {
+        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) {
+            continue;
+        }
+        for (Json& primitive : mesh["primitives"]) {
+            const Json* extensions = primitive.is_object() ? findObject(primitive, "extensions") : nullptr;
+            if (extensions != nullptr && findObject(*extensions, "KHR_draco_mesh_compression") != nullptr) {
+                primitive.erase("indices");
+            }
+        }
+    }
+}
+
+void parseModel(GltfFile& file, const Json& document) {
+    const std::string text = document.dump();
+    std::string error;
+    std::string warning;
+    bool parsed = false;
+    try {
+        parsed = tinygltf::TinyGLTF().LoadASCIIFromString(&file.model, &error, &warning, text.c_str(),
+                                                          static_cast<unsigned>(text.size()), "");
+    } catch (const std::exception& exception) {
+        error = exception.what();
+    }
+    if (!parsed || !error.empty()) {
+        failGltf(file, "is not valid glTF: " + error.substr(0, error.find_last_not_of(". \n", error.find('\n')) + 1));
+    }
+}
+
+std::string decodePercents(const std::string& uri) {
+    std::string result;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
+            std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0) {
+            result += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+        } else {
+            result += uri[i];
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+void failGltf(const GltfFile& file, const std::string& what) {
+    throw SceneError(file.path.string() + ": " + what);
+}
+
+GltfKind gltfKind(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() >= 8 && wordAt(bytes, 0) == glbMagic) {
+        return wordAt(bytes, 4) == 1 ? GltfKind::Version1 : GltfKind::Version2;
+    }
+    const auto first = std::ranges::find_if(bytes, [](std::uint8_t c) { return std::isspace(c) == 0; });
+    if (first == bytes.end() || (*first != '{' && *first != 0xef)) { // 0xef begins a byte order mark
+        return GltfKind::None;
+    }
+    // Only `asset` matters; everything else is skipped while it is parsed.
+    const auto filter = [](int depth, Json::parse_event_t event, Json& parsed) {
+        return !(depth == 1 && event == Json::parse_event_t::key && parsed != "asset") && depth < 4;
+    };
+    const Json json = Json::parse(bytes.begin(), bytes.end(), filter, false);
+    if (!json.is_object() || !json.contains("asset")) {
+        return GltfKind::None;
+    }
+    const Json& asset = json["asset"];
+    const Json version = asset.is_object() ? asset.value("version", Json()) : Json();
+    return version.is_string() && version.get<std::string>().starts_with("1") ? GltfKind::Version1 : GltfKind::Version2;
+}
+
+Bytes readUri(const GltfFile& file, const std::string& uri, const std::string& field) {
+    if (uri.starts_with("data:")) {
+        const std::size_t comma = uri.find(',');
+        Bytes bytes;
+        std::string mimeType;
+        // tinygltf knows a list of media types; the one that is given does not matter here.
+        if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64") ||
+            !tinygltf::DecodeDataURI(&bytes, mimeType, "data:application/octet-stream;base64," + uri.substr(comma + 1),
+                                     0, false)) {
+            failGltf(file, field + " " + quoted(uri) + " is not a base64 data uri");
+        }
+        return bytes;
+    }
+    const std::filesystem::path target = file.path.parent_path() / decodePercents(uri);
+    if (!std::filesystem::exists(target)) {
+        failGltf(file, field + " " + quoted(uri) + " does not exist");
+    }
+    return readFile(target);
+}
+
+GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+    GltfFile file;
+    file.path = path;
+    const Container container = openContainer(file, bytes);
+    Json document = parseJson(file, container.json);
+    const Json* asset = findObject(document, "asset");
+    const Json version = asset != nullptr ? asset->value("version", Json()) : Json();
+    if (!version.is_string() || !version.get<std::string>().starts_with("2.")) {
+        failGltf(file, "asset.version is " + version.dump() + ", must be \"2.0\"");
+    }
+    checkExtensions(file, document);
+    const std::vector<Json> buffers = takeObjects(file, document, "buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const auto binary = i == 0 ? container.binary : std::span<const std::uint8_t>();
+        file.buffers.push_back(loadBuffer(file, buffers[i], "buffers[" + std::to_string(i) + "]", binary));
+    }
+    const std::vector<Json> images = takeObjects(file, document, "images");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        file.images.push_back(readImage(file, images[i], "images[" + std::to_string(i) + "]"));
+    }
+    document.erase("animations");
+    dropDracoIndices(document);
+    parseModel(file, document);
+    decodeMeshoptViews(file);
+    return file;
+}
+
+} // namespace nacre::scene

@@ -1,0 +1,68 @@
+// A parsed glTF file with its bytes: tinygltf reads the structure; the container, buffers, compression and accessors
+// are read here, because tinygltf 2.7 trusts ranges and has no room for the fallback buffers of
+// EXT_meshopt_compression.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <span>
+#include <tiny_gltf.h>
+
+namespace nacre::scene {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Most elements of one accessor, and most bytes of one decompressed buffer view.
+inline constexpr std::size_t maxGltfElements = std::size_t{1} << 28;
+inline constexpr std::size_t maxGltfViewBytes = std::size_t{1} << 30;
+
+/// Where an image's bytes are; exactly one is set.
+struct GltfImage {
+    std::string uri;
+    int bufferView = -1;
+    std::string name;
+};
+
+struct GltfFile {
+    std::filesystem::path path;
+    tinygltf::Model model; ///< without buffers and images
+    std::vector<Bytes> buffers;
+    std::vector<Bytes> decodedViews; ///< per buffer view; empty unless EXT_meshopt_compression
+    std::vector<GltfImage> images;
+};
+
+/// The container, the structure, the buffers and the compressed buffer views.
+GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+/// Throws SceneError: "FILE: what".
+[[noreturn]] void failGltf(const GltfFile& file, const std::string& what);
+
+/// `items[index]`, or a SceneError that says that `field` has no such element.
+template <typename T>
+const T& elementOf(const GltfFile& file, const std::vector<T>& items, int index, const std::string& field) {
+    if (index < 0 || static_cast<std::size_t>(index) >= items.size()) {
+        failGltf(file, field + " is " + std::to_string(index) + ", but there are only " + std::to_string(items.size()));
+    }
+    return items[static_cast<std::size_t>(index)];
+}
+
+/// The bytes of a buffer view, decompressed.
+std::span<const std::uint8_t> viewBytes(const GltfFile& file, int view, const std::string& field);
+
+/// The bytes behind a uri: a data uri, or a file beside the model.
+Bytes readUri(const GltfFile& file, const std::string& uri, const std::string& field);
+
+/// An accessor's elements as floats, normalised integers mapped to [0, 1] or [-1, 1]; `components` is what its type
+/// must have (0: any). Sparse accessors are applied.
+std::vector<float> readFloats(const GltfFile& file, int accessor, int components, const std::string& field);
+
+/// A scalar accessor's elements as unsigned integers.
+std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor, const std::string& field);
+
+/// Components of an accessor's elements: 1 to 4, or 4, 9, 16 for matrices.
+int componentCount(const GltfFile& file, int accessor, const std::string& field);
+
+/// Fills `decodedViews`.
+void decodeMeshoptViews(GltfFile& file);
+
+} // namespace nacre::scene

@@ -1,0 +1,221 @@
+#include "scene/gltf_material.hpp"
+
+#include "scene/image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nacre::scene {
+namespace {
+
+/// A reference that tinygltf has parsed (TextureInfo or NormalTextureInfo).
+template <typename Info> GltfTextureUse useOf(const GltfFile& file, const Info& info, const std::string& field) {
+    GltfTextureUse use;
+    use.texture = info.index;
+    use.texCoord = info.texCoord;
+    use.field = field;
+    readTextureTransform(GltfObject(file, info.extensions, "KHR_texture_transform", field), use);
+    return use;
+}
+
+glm::vec4 readColor(const GltfFile& file, const std::vector<double>& values, std::size_t count,
+                    const glm::vec4& fallback, const std::string& field) {
+    if (values.empty()) {
+        return fallback;
+    }
+    if (values.size() != count) {
+        failGltf(file, field + " must be an array of " + std::to_string(count) + " numbers");
+    }
+    glm::vec4 color(1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double value = checkRange(file, values[i], 0, 1, field + "[" + std::to_string(i) + "]");
+        color[static_cast<int>(i)] = static_cast<float>(value);
+    }
+    return color;
+}
+
+glm::vec3 linearMean(const Texture& texture) {
+    glm::dvec3 sum(0);
+    const std::size_t count = texture.pixels.size() / 4;
+    std::array<double, 256> linear{};
+    for (std::size_t i = 0; i < linear.size(); ++i) {
+        const double c = static_cast<double>(i) / 255;
+        linear[i] = !texture.srgb ? c : (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    for (std::size_t pixel = 0; pixel < count; ++pixel) {
+        const std::uint8_t* rgba = &texture.pixels[pixel * 4];
+        sum += glm::dvec3(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
+    }
+    return glm::vec3(sum / static_cast<double>(count));
+}
+
+} // namespace
+
+std::uint32_t GltfMaterials::surface(int material) {
+    const auto found = surfaces_.find(material);
+    if (found != surfaces_.end()) {
+        return found->second;
+    }
+    static const tinygltf::Material standard;
+    const std::string field = "materials[" + std::to_string(material) + "]";
+    const auto& source = material < 0 ? standard : elementOf(file_, file_.model.materials, material, "material");
+    return surfaces_[material] = convert(source, field);
+}
+
+std::uint32_t GltfMaterials::convert(const tinygltf::Material& source, const std::string& field) {
+    const auto& pbr = source.pbrMetallicRoughness;
+    const std::string pbrField = field + ".pbrMetallicRoughness";
+    const auto extension = [&](const char* name) { return GltfObject(file_, source.extensions, name, field); };
+    Surface surface;
+    surface.name = source.name;
+    surface.baseColor = readColor(file_, pbr.baseColorFactor, 4, glm::vec4(1), pbrField + ".baseColorFactor");
+    surface.metallic = static_cast<float>(checkRange(file_, pbr.metallicFactor, 0, 1, pbrField + ".metallicFactor"));
+    surface.roughness = static_cast<float>(checkRange(file_, pbr.roughnessFactor, 0, 1, pbrField + ".roughnessFactor"));
+    const double ior = extension("KHR_materials_ior").number("ior", 1.5, 0, 100);
+    const double reflectance = ior == 0 ? 1 : std::pow((ior - 1) / (ior + 1), 2); // 0 stands for infinite
+    const double factor = extension("KHR_materials_specular").number("specularFactor", 1, 0, 1);
+    surface.specular = static_cast<float>(std::min(reflectance * factor / 0.08, 1.0));
+    const double emission = extension("KHR_materials_emissive_strength").number("emissiveStrength", 1, 0, 1e9);
+    surface.emission = glm::vec3(readColor(file_, source.emissiveFactor, 3, glm::vec4(0), field + ".emissiveFactor")) *
+                       static_cast<float>(emission);
+    surface.doubleSided = source.doubleSided;
+    surface.normalScale =
+        static_cast<float>(checkRange(file_, source.normalTexture.scale, -1e3, 1e3, field + ".normalTexture.scale"));
+    int texCoord = 0;
+    readTextures(source, field, surface, texCoord);
+    surface.alphaMask = source.alphaMode == "MASK" || (source.alphaMode == "BLEND" && surface.baseColorTexture != none);
+    surface.alphaCutoff =
+        source.alphaMode == "MASK"
+            ? static_cast<float>(checkRange(file_, source.alphaCutoff, 0, 1e3, field + ".alphaCutoff"))
+            : 0.5f;
+    readSubsurface(source, field, surface);
+    scene_.surfaces.push_back(std::move(surface));
+    texCoords_.push_back(texCoord);
+    return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);
+}
+
+void GltfMaterials::readTextures(const tinygltf::Material& source, const std::string& field, Surface& surface,
+                                 int& texCoord) {
+    const auto extension = [&](const char* name) { return GltfObject(file_, source.extensions, name, field); };
+    const auto& pbr = source.pbrMetallicRoughness;
+    GltfTextureUse baseColor = useOf(file_, pbr.baseColorTexture, field + ".pbrMetallicRoughness.baseColorTexture");
+    readSpecularGlossiness(source, field, surface, baseColor);
+    // Without a base colour texture, what the medium scatters or lets through is the colour that is seen.
+    for (const auto& [name, key] :
+         {std::pair("KHR_materials_scatter", "multiscatterColorTexture"),
+          std::pair("KHR_materials_volume_scatter", "multiscatterColorTexture"),
+          std::pair("KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture")}) {
+        if (baseColor.texture < 0) {
+            baseColor = extension(name).texture(key);
+        }
+    }
+    const GltfTextureUse normal = useOf(file_, source.normalTexture, field + ".normalTexture");
+    const GltfTextureUse metallicRoughness =
+        useOf(file_, pbr.metallicRoughnessTexture, field + ".pbrMetallicRoughness.metallicRoughnessTexture");
+    const GltfTextureUse thickness = extension("KHR_materials_volume").texture("thicknessTexture");
+
+    surface.baseColorTexture = texture(baseColor, true);
+    surface.normalTexture = texture(normal, false);
+    surface.metallicRoughnessTexture = texture(metallicRoughness, false);
+    surface.thicknessTexture = texture(thickness, false);
+    bool first = true;
+    for (const GltfTextureUse* use :
+         std::initializer_list<const GltfTextureUse*>{&baseColor, &normal, &metallicRoughness, &thickness}) {
+        if (use->texture < 0) {
+            continue;
+        }
+        if (first) {
+            texCoord = use->texCoord;
+            surface.uvTransform = use->transform;
+            first = false;
+        } else if (use->texCoord != texCoord || use->transform != surface.uvTransform) {
+            scene_.notes.push_back(
+                file_.path.string() + ": " + use->field +
+                " has texture coordinates of its own; those of the material's first texture are used");
+        }
+    }
+}
+
+void GltfMaterials::readSpecularGlossiness(const tinygltf::Material& source, const std::string& field, Surface& surface,
+                                           GltfTextureUse& baseColor) {
+    const GltfObject extension(file_, source.extensions, "KHR_materials_pbrSpecularGlossiness", field);
+    if (!extension.exists()) {
+        return;
+    }
+    const auto diffuse = extension.numbers("diffuseFactor", {1, 1, 1, 1}, 0, 1);
+    const glm::vec3 specular = extension.color("specularFactor", glm::vec3(1));
+    surface.baseColor = glm::vec4(diffuse[0], diffuse[1], diffuse[2], diffuse[3]);
+    surface.metallic = 0;
+    surface.roughness = static_cast<float>(1 - extension.number("glossinessFactor", 1, 0, 1));
+    surface.specular = std::min(std::max({specular.x, specular.y, specular.z}) / 0.08f, 1.0f);
+    baseColor = extension.texture("diffuseTexture");
+}
+
+void GltfMaterials::readSubsurface(const tinygltf::Material& source, const std::string& field, Surface& surface) {
+    GltfMedium medium = readMedium(file_, source.extensions, field);
+    const bool textured = surface.baseColorTexture != none;
+    for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
+        const GltfObject extension(file_, source.extensions, name, field);
+        const std::uint32_t image = texture(extension.texture("multiscatterColorTexture"), true);
+        if (image != none) { // a profile has one albedo
+            medium.multiscatterColor *= linearMean(scene_.textures[image]);
+        }
+    }
+    if (medium.thickness > 0) {
+        surface.thickness = static_cast<float>(medium.thickness * 1000);
+    }
+    std::optional<Material> material = makeMaterial(medium, source.name);
+    if (!material) {
+        return;
+    }
+    const GltfObject diffuse(file_, source.extensions, "KHR_materials_diffuse_transmission", field);
+    const glm::vec3 through = diffuse.color("diffuseTransmissionColorFactor", glm::vec3(1));
+    const bool dense = medium.scatters && medium.multiscatterColor != glm::vec3(0);
+    const float share = static_cast<float>(dense ? material->strength : 0);
+    if (!textured && dense) {
+        surface.baseColor = glm::vec4(glm::mix(glm::vec3(surface.baseColor), medium.multiscatterColor * through, share),
+                                      surface.baseColor.w);
+    }
+    if (medium.thickness <= 0) {
+        surface.thickness = static_cast<float>(thinWallThickness);
+    }
+    material->albedo = {surface.baseColor.x, surface.baseColor.y, surface.baseColor.z};
+    material->roughness = surface.roughness;
+    material->specular = surface.specular;
+    surface.material = static_cast<std::uint32_t>(scene_.materials.size());
+    scene_.materials.push_back(std::move(*material));
+}
+
+std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
+    if (use.texture < 0) {
+        return none;
+    }
+    const tinygltf::Texture& source = elementOf(file_, file_.model.textures, use.texture, use.field + ".index");
+    const std::string textureField = "textures[" + std::to_string(use.texture) + "]";
+    const GltfImage& image = elementOf(file_, file_.images, source.source, textureField + ".source");
+    bool repeat = true;
+    if (source.sampler >= 0) {
+        repeat = elementOf(file_, file_.model.samplers, source.sampler, textureField + ".sampler").wrapS !=
+                 TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    }
+    const auto key = std::tuple(source.source, srgb, repeat);
+    if (const auto found = textures_.find(key); found != textures_.end()) {
+        return found->second;
+    }
+    const std::string field = "images[" + std::to_string(source.source) + "]";
+    Bytes external;
+    std::span<const std::uint8_t> bytes;
+    if (image.bufferView >= 0) {
+        bytes = viewBytes(file_, image.bufferView, field + ".bufferView");
+    } else {
+        bytes = external = readUri(file_, image.uri, field + ".uri");
+    }
+    Texture texture = decodeTexture(bytes, file_.path.string() + ": " + field, srgb);
+    texture.name = image.name.empty() ? field : image.name;
+    texture.repeat = repeat;
+    scene_.textures.push_back(std::move(texture));
+    return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+}
+
+} // namespace nacre::scene

@@ -1,0 +1,37 @@
+// glTF materials and textures as surfaces.
+#pragma once
+
+#include "scene/gltf_object.hpp"
+#include "scene/gltf_subsurface.hpp"
+
+#include <map>
+#include <tuple>
+
+namespace nacre::scene {
+
+/// Converts materials, and the textures they use, when they are first asked for.
+class GltfMaterials {
+public:
+    GltfMaterials(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
+
+    /// The surface of a material; -1 is glTF's default material.
+    std::uint32_t surface(int material);
+    /// The TEXCOORD set that a surface reads.
+    int texCoord(std::uint32_t surface) const { return texCoords_[surface]; }
+
+private:
+    std::uint32_t convert(const tinygltf::Material& source, const std::string& field);
+    void readTextures(const tinygltf::Material& source, const std::string& field, Surface& surface, int& texCoord);
+    void readSpecularGlossiness(const tinygltf::Material& source, const std::string& field, Surface& surface,
+                                GltfTextureUse& baseColor);
+    void readSubsurface(const tinygltf::Material& source, const std::string& field, Surface& surface);
+    std::uint32_t texture(const GltfTextureUse& use, bool srgb);
+
+    const GltfFile& file_;
+    Scene& scene_;
+    std::map<int, std::uint32_t> surfaces_;
+    std::vector<int> texCoords_;
+    std::map<std::tuple<int, bool, bool>, std::uint32_t> textures_; ///< by image, sRGB, repeat
+};
+
+} // namespace nacre::scene

@@ -1,0 +1,43 @@
+// glTF primitives as meshes.
+#pragma once
+
+#include "scene/gltf_file.hpp"
+#include "scene/import_mesh.hpp"
+
+#include <map>
+#include <optional>
+
+namespace nacre::scene {
+
+/// A primitive's vertex attributes by name ("POSITION", "JOINTS_0" …) as floats, and its triangles.
+struct GltfPrimitive {
+    std::vector<float> attribute(const std::string& name, int components) const;
+    bool has(const std::string& name) const { return attributes.contains(name); }
+
+    struct Attribute {
+        int components = 0;
+        std::vector<float> values;
+    };
+    std::map<std::string, Attribute> attributes;
+    std::vector<std::uint32_t> indices;
+    std::size_t vertexCount = 0;
+    std::string field; ///< "FILE: meshes[0].primitives[0]"
+};
+
+/// Reads a primitive, Draco-compressed or not; nothing for points and lines.
+std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::size_t primitive);
+
+/// Decodes KHR_draco_mesh_compression; throws SceneError when the data are damaged.
+GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field);
+
+/// Adds the morph targets with the given weights to positions and normals.
+void applyMorphTargets(const GltfFile& file, int mesh, std::size_t primitive, std::span<const double> weights,
+                       GltfPrimitive& target);
+
+/// Moves positions and normals by the joints of a skin, whose nodes are at `nodeTransforms`.
+void applySkin(const GltfFile& file, int skin, std::span<const glm::mat4> nodeTransforms, GltfPrimitive& target);
+
+/// The mesh: checked, with normals, and tangents when `needsTangents`; texture coordinates from TEXCOORD_`texCoord`.
+Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, const glm::mat3& uvTransform);
+
+} // namespace nacre::scene

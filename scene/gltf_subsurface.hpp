@@ -1,0 +1,40 @@
+// From glTF's physical description of a medium to a subsurface material.
+#pragma once
+
+#include "scene/gltf_object.hpp"
+
+namespace nacre::scene {
+
+/// What KHR_materials_volume, _diffuse_transmission, _transmission, _volume_scatter and _scatter say of one material.
+struct GltfMedium {
+    double thickness = 0;           ///< [m] 0 = thin-walled
+    double attenuationDistance = 0; ///< [m] 0 = not given: infinitely far
+    glm::vec3 attenuationColor{1};
+    bool transmits = false;      ///< one of the transmission extensions is there
+    double transmission = 0;     ///< [0, 1] share of the light that enters
+    double thinTransmission = 0; ///< [0, 1] share of the diffuse light that leaves on the far side of a thin wall
+    bool scatters = false;
+    glm::vec3 multiscatterColor{0}; ///< albedo with all orders of scattering
+    double anisotropy = 0;          ///< g of Henyey and Greenstein
+};
+
+/// Reads the extensions of a material; throws SceneError for values out of range.
+GltfMedium readMedium(const GltfFile& file, const tinygltf::ExtensionMap& extensions, const std::string& owner);
+
+/// [mm] Thickness given to thin walls: so thin that nothing is lost on the way through.
+inline constexpr double thinWallThickness = 0.01;
+
+/// The subsurface material, or nothing for a medium that does not scatter:
+///  - dense media (volume with scattering): A = multiscatterColor; single-scattering albedo α by Kulla and Conty's
+///    inversion; σt = −ln(attenuationColor)/attenuationDistance; ℓ' = 1/(σt(1 − αg)); d = ℓ'/s(A) with
+///    s = 1.9 − A + 3.5(A − 0.8)² (Christensen and Burley 2015, diffuse transmission);
+///  - volumes without scattering behind a diffuse transmission: d such that a slab of attenuationDistance transmits
+///    attenuationColor;
+///  - thin walls: translucency = the transmitted share, with a spread of 0.3 mm, a leaf's thickness, chosen by eye.
+std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string& name);
+
+/// Kulla and Conty 2017 ("Revisiting physically based shading at Imageworks"), as in KHR_materials_volume_scatter: the
+/// single-scattering albedo of a medium with the multiple-scattering albedo A [0, 1] and the anisotropy g (−1, 1).
+double singleScatterAlbedo(double multiscatterAlbedo, double anisotropy);
+
+} // namespace nacre::scene
