@@ -48,7 +48,7 @@ HalfLineSpread tabulate(const Profile& profile, double radius) {
             cellMass += channelMass;
             squares += channelMass * channelMass / (width * width);
         }
-        half.density.push_back(half.density.back() + std::cbrt(squares) * width);
+        half.density.push_back(half.density.back() + std::pow(squares, 1.0 / 6) * width);
         half.mass.push_back(half.mass.back() + cellMass);
         half.firstMoment.push_back(half.firstMoment.back() + cellMass * 0.5 * (x + half.x.back()));
         half.x.push_back(x);
