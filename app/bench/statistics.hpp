@@ -1,0 +1,74 @@
+// The benchmark's statistics: what one configuration took, how a series of configurations grows, and whether two
+// measurements differ. Everything here is distribution-free or says what it assumes; nothing touches a device.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace nacre::bench {
+
+/// Confidence asked of every interval.
+inline constexpr double confidence = 0.95;
+
+/// Repeated measurements of one quantity.
+struct Summary {
+    std::size_t count = 0;
+    double median = 0;
+    double p5 = 0;
+    double p95 = 0;
+    /// Confidence interval of the median from order statistics; it assumes independent samples and nothing about their
+    /// distribution (Conover 1999, "Practical nonparametric statistics", 3.2).
+    double low = 0;
+    double high = 0;
+    /// What the interval really has: at least `confidence` from six samples on; with fewer it is the whole range.
+    double confidence = 0;
+
+    bool operator==(const Summary&) const = default;
+};
+
+/// Throws std::invalid_argument when there is no sample or one is not finite.
+Summary summarize(std::span<const double> samples);
+
+/// The value below which `share` [0, 1] of the ascending samples lie, linear between neighbours (type 7 of Hyndman and
+/// Fan 1996, "Sample quantiles in statistical packages").
+double percentile(std::span<const double> ascending, double share);
+
+/// The straight line through a series of measurements, and how sure its slope is.
+struct Line {
+    std::size_t count = 0;
+    double slope = 0;
+    /// Confidence interval of the slope: Student's t with count − 2 degrees of freedom on the scatter about the line.
+    double slopeLow = 0;
+    double slopeHigh = 0;
+    double intercept = 0;
+    /// [0, 1] share of the variance that the line explains; 1 when there is no variance.
+    double rSquared = 0;
+    /// Median of the slopes between all pairs (Theil 1950, Sen 1968): far from `slope` when one point decides it.
+    double robustSlope = 0;
+
+    bool operator==(const Line&) const = default;
+};
+
+/// Least squares. Throws std::invalid_argument unless there are at least three points, as many x as y, all finite, and
+/// two different x.
+Line fitLine(std::span<const double> x, std::span<const double> y);
+
+/// Whether nothing says that the line is not flat: its slope's interval holds 0, or it predicts a change over `span` of
+/// x that is smaller than `noise` (a share) of the value at the start.
+bool isFlat(const Line& line, double start, double span, double noise);
+
+/// The difference between two medians of the same configuration that is not evidence of anything: the share by which
+/// they differ, or the wider of their intervals' half widths, whichever is more. 1 when a median is 0: the clock is too
+/// coarse to tell anything.
+double noiseFloor(const Summary& first, const Summary& second);
+
+enum class Verdict { Same, Better, Worse };
+
+/// A time against an earlier one: different only when the medians differ by more than `noise` (a share) and their
+/// intervals do not overlap.
+Verdict compareTimes(const Summary& before, const Summary& after, double noise);
+
+/// A PSNR against an earlier one: different when it changed by more than `noise` dB.
+Verdict comparePsnr(double before, double after, double noise);
+
+} // namespace nacre::bench
