@@ -29,7 +29,7 @@ void listMaterials(const std::filesystem::path& json) {
         return;
     }
     for (const Material& material : presets()) {
-        std::cout << std::left << std::setw(16) << material.name << material.description << '\n';
+        std::cout << std::left << std::setw(18) << material.name << material.description << '\n';
     }
 }
 

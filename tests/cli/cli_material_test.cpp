@@ -1,0 +1,129 @@
+// `nacre material`: presets, round trips, and files with faults. Needs no device.
+#include "command.hpp"
+#include "schema.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace {
+
+using nacre::test::CommandTest;
+using nacre::test::expectComplaint;
+using nacre::test::Outcome;
+using nacre::test::readText;
+using nacre::test::writeText;
+
+class MaterialTest : public CommandTest {
+protected:
+    std::vector<std::string> presetNames() const {
+        const Outcome outcome = run({"material", "list", "--json", "-"});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+        std::vector<std::string> names;
+        const nlohmann::json list = nlohmann::json::parse(outcome.output);
+        for (const nlohmann::json& material : list["materials"]) {
+            names.push_back(material["name"]);
+        }
+        return names;
+    }
+};
+
+TEST_F(MaterialTest, ListHasEveryPreset) {
+    const std::vector<std::string> names = presetNames();
+    const std::string text = run({"material", "list"}).output;
+    for (const std::string& name : names) {
+        EXPECT_NE(text.find(name), std::string::npos) << name;
+    }
+    for (const std::string name : {"skin", "marble", "wax", "jade", "leaf", "nacre"}) {
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+    }
+}
+
+TEST_F(MaterialTest, EveryPresetShownAsJsonIsAValidMaterialFile) {
+    for (const std::string& name : presetNames()) {
+        const std::string file = name + ".json";
+        EXPECT_EQ(run({"material", "show", name, "--json", file}).exitCode, 0);
+        EXPECT_EQ(run({"material", "check", file}).exitCode, 0);
+        nacre::test::expectMatchesSchema(readText(folder() / file), "material.schema.json");
+        EXPECT_EQ(run({"material", "show", file, "--json", "-"}).output, readText(folder() / file));
+    }
+}
+
+TEST_F(MaterialTest, ShowTellsRadiiAndTransmission) {
+    writeText(folder() / "one.json", R"({"name": "one", "layers": [{"weight": [1, 1, 1], "variance": 2}]})");
+    const Outcome outcome = run({"material", "show", "one.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    // rms radius of one Gaussian: sqrt(2 v) = 2 mm; through 2 mm: exp(-4 / 4) = 0.3679.
+    EXPECT_NE(outcome.output.find("rms radius, mm                              2          2          2"),
+              std::string::npos)
+        << outcome.output;
+    EXPECT_NE(outcome.output.find("through 2 mm                           0.3679     0.3679     0.3679"),
+              std::string::npos)
+        << outcome.output;
+}
+
+struct Fault {
+    std::string name;
+    std::string text;
+    std::vector<std::string> parts;
+};
+
+std::string layersText(int count) {
+    std::string text = R"({"name": "m", "layers": [)";
+    for (int index = 0; index < count; ++index) {
+        text += std::string(index == 0 ? "" : ", ") + R"({"weight": [1, 1, 1], "variance": 1})";
+    }
+    return text + "]}";
+}
+
+const std::vector<Fault> faults{
+    {"NotJson", "skin", {}},
+    {"Empty", "", {}},
+    {"CutOff", R"({"name": "m", "layers": [{"weight": [1, 1)", {}},
+    {"UnknownKey", R"({"name": "m", "colour": 1, "layers": [{"weight": [1, 1, 1], "variance": 1}]})", {"colour"}},
+    {"UnknownLayerKey", R"({"layers": [{"weight": [1, 1, 1], "varience": 1}]})", {"varience"}},
+    {"Nan", R"({"layers": [{"weight": [1, 1, 1], "variance": NaN}]})", {}},
+    {"NanWord", R"({"layers": [{"weight": [1, 1, 1], "variance": "NaN"}]})", {"variance", "NaN"}},
+    {"Infinite", R"({"layers": [{"weight": [1, 1, 1], "variance": 1e999}]})", {}},
+    {"NegativeVariance", R"({"layers": [{"weight": [1, 1, 1], "variance": -0.5}]})", {"variance", "-0.5"}},
+    {"NegativeWeight", R"({"layers": [{"weight": [1, -1, 1], "variance": 1}]})", {"weight", "-1"}},
+    {"TooManyLayers", layersText(33), {"layers", "33"}},
+    {"NoLayers", R"({"name": "m", "layers": []})", {"layers"}},
+    {"NoProfile", R"({"name": "m"})", {"layers"}},
+    {"ZeroWeights", R"({"layers": [{"weight": [0, 1, 1], "variance": 1}]})", {"weight"}},
+    {"Translucency",
+     R"({"translucency": 1.5, "layers": [{"weight": [1, 1, 1], "variance": 1}]})",
+     {"translucency", "1.5"}},
+    {"Scale", R"({"scale": 0, "layers": [{"weight": [1, 1, 1], "variance": 1}]})", {"scale", "0"}},
+};
+
+class FaultTest : public CommandTest, public testing::WithParamInterface<Fault> {};
+
+TEST_P(FaultTest, IsOneSentenceThatNamesFileAndField) {
+    writeText(folder() / "faulty.json", GetParam().text);
+    std::vector<std::string> parts = GetParam().parts;
+    parts.emplace_back("faulty.json");
+    expectComplaint(run({"material", "check", "faulty.json"}), 1, parts);
+    expectComplaint(run({"material", "show", "faulty.json", "--json", "copy.json"}), 1, parts);
+    EXPECT_EQ(files(), std::vector<std::string>{"faulty.json"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Material, FaultTest, testing::ValuesIn(faults),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_F(MaterialTest, MissingFileIsNamed) {
+    expectComplaint(run({"material", "check", "none.json"}), 1, {"none.json"});
+    expectComplaint(run({"material", "check", "."}), 1, {"."});
+}
+
+TEST_F(MaterialTest, UnwritableOutputsAreNamedAndNothingIsLeft) {
+    expectComplaint(run({"material", "show", "skin", "--json", "missing/skin.json"}), 1,
+                    {"missing/skin.json", "missing"});
+    expectComplaint(run({"material", "show", "skin", "--json", "."}), 1, {"."});
+    expectComplaint(run({"material", "list", "--json", "/dev/full"}), 1, {"/dev/full", "No space left"});
+    EXPECT_TRUE(files().empty());
+}
+
+} // namespace

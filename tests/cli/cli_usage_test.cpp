@@ -1,0 +1,101 @@
+// Help, version, and wrong usage: exit code 2 and one sentence that names the option and its value. Needs no device.
+#include "command.hpp"
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using nacre::test::CommandTest;
+using nacre::test::expectComplaint;
+using nacre::test::Outcome;
+
+struct WrongUsage {
+    std::string name;
+    std::vector<std::string> arguments;
+    std::vector<std::string> parts;
+};
+
+const std::vector<WrongUsage> wrongUsages{
+    {"UnknownCommand", {"paint"}, {"paint"}},
+    {"UnknownOption", {"render", "--colour", "red"}, {"--colour"}},
+    {"TwoScenes", {"render", "a.obj", "b.obj"}, {"b.obj"}},
+    {"MissingValue", {"render", "--size"}, {"--size"}},
+    {"SizeZero", {"render", "--size", "0x0"}, {"--size", "0x0", "1x1"}},
+    {"SizeHuge", {"render", "--size", "100000x100000"}, {"--size", "100000x100000", "16384x16384"}},
+    {"SizeOverflow", {"render", "--size", "99999999999999999999x1"}, {"--size", "99999999999999999999x1"}},
+    {"SizeHalf", {"render", "--size", "12x"}, {"--size", "'12x'", "WIDTHxHEIGHT"}},
+    {"SizeNegative", {"render", "--size=-1x5"}, {"--size", "'-1x5'"}},
+    {"SizeTail", {"render", "--size", "12x34px"}, {"--size", "'12x34px'"}},
+    {"SizeEmpty", {"render", "--size", ""}, {"--size"}},
+    {"Technique", {"render", "--technique", "magic"}, {"technique", "'magic'", "separable", "brute"}},
+    {"Material", {"render", "--material", "custard"}, {"material", "'custard'", "nacre material list"}},
+    {"MaterialShow", {"material", "show", "custard"}, {"'custard'"}},
+    {"MaterialAlone", {"material"}, {"subcommand"}},
+    {"MaterialCheckNothing", {"material", "check"}, {"FILE"}},
+    {"AovName", {"render", "--aov", "beauty=b.exr"}, {"AOV", "'beauty'", "irradiance"}},
+    {"AovFile", {"render", "--aov", "depth=d.png"}, {"depth", "'d.png'", ".exr"}},
+    {"AovNoFile", {"render", "--aov", "depth"}, {"--aov", "'depth'", "NAME=FILE.exr"}},
+    {"OutputKind", {"render", "-o", "picture.jpg"}, {"--output", "'picture.jpg'", ".png"}},
+    {"OutputEmpty", {"render", "-o", ""}, {"--output"}},
+    {"SameFile", {"render", "-o", "a.exr", "--aov", "depth=a.exr"}, {"same file", "a.exr"}},
+    {"SameFileDifferentlySpelt", {"render", "-o", "a.exr", "--aov", "depth=./a.exr"}, {"same file", "a.exr"}},
+    {"OutputIsInput", {"render", "s.json", "--json", "s.json"}, {"same file", "s.json"}},
+    {"ShadowMapZero", {"render", "--shadow-map-size", "0"}, {"--shadow-map-size 0"}},
+    {"ShadowMapHuge", {"render", "--shadow-map-size", "99999"}, {"--shadow-map-size 99999"}},
+    {"ShadowMapWord", {"render", "--shadow-map-size", "big"}, {"--shadow-map-size", "big"}},
+    {"ExposureNan", {"render", "--exposure", "nan"}, {"--exposure", "nan"}},
+    {"ExposureHuge", {"render", "--exposure", "1e9"}, {"--exposure", "1e+09"}},
+    {"CameraPositionShort", {"render", "--camera-position", "1,2"}, {"--camera-position", "'1,2'"}},
+    {"CameraPositionLong", {"render", "--camera-position", "1,2,3,4"}, {"--camera-position", "'1,2,3,4'"}},
+    {"CameraPositionInfinite", {"render", "--camera-position", "1,inf,0"}, {"--camera-position", "1,inf,0"}},
+    {"FieldOfView", {"render", "--fov", "180"}, {"--fov 180"}},
+};
+
+class WrongUsageTest : public CommandTest, public testing::WithParamInterface<WrongUsage> {};
+
+TEST_P(WrongUsageTest, IsOneSentenceAndLeavesNothing) {
+    expectComplaint(run(GetParam().arguments), 2, GetParam().parts);
+    EXPECT_TRUE(files().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Usage, WrongUsageTest, testing::ValuesIn(wrongUsages),
+                         [](const auto& test) { return test.param.name; });
+
+class UsageTest : public CommandTest {
+protected:
+    void expectText(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) const {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.error, "");
+        for (const std::string& part : parts) {
+            EXPECT_NE(outcome.output.find(part), std::string::npos) << "'" << part << "' is not in:\n"
+                                                                    << outcome.output;
+        }
+    }
+};
+
+TEST_F(UsageTest, AloneSaysWhatThereIs) {
+    expectText({}, {"render", "material", "devices", "Examples", "--help"});
+}
+
+TEST_F(UsageTest, VersionIsTheProjects) {
+    expectText({"--version"}, {"nacre " NACRE_VERSION});
+}
+
+TEST_F(UsageTest, HelpOfRenderHasEveryOptionAndExamples) {
+    expectText(
+        {"render", "--help"},
+        {"--output",   "--size",  "--technique", "--no-scatter",      "--no-transmit",   "--material", "--front",
+         "--back",     "--light", "--camera",    "--camera-position", "--camera-target", "--fov",      "--exposure",
+         "--aov",      "--json",  "--device",    "--shadow-map-size", "--validation",    "1280x720",   "Examples",
+         "irradiance", "brute"});
+}
+
+TEST_F(UsageTest, HelpOfTheOtherCommands) {
+    expectText({"devices", "--help"}, {"--json"});
+    expectText({"material", "--help"}, {"list", "show", "check"});
+    expectText({"material", "show", "--help"}, {"MATERIAL", "--json"});
+}
+
+} // namespace

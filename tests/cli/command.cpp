@@ -1,0 +1,112 @@
+#include "command.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+namespace nacre::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path makeFolder(const std::string& prefix) {
+    std::string name = (fs::temp_directory_path() / (prefix + "-XXXXXX")).string();
+    if (mkdtemp(name.data()) == nullptr) {
+        throw std::runtime_error("no temporary folder");
+    }
+    return name;
+}
+
+void redirect(const fs::path& file, int descriptor) {
+    const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(opened, descriptor);
+}
+
+[[noreturn]] void becomeNacre(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& logs,
+                              const Environment& environment) {
+    redirect(logs / "output", STDOUT_FILENO);
+    redirect(logs / "error", STDERR_FILENO);
+    std::error_code error;
+    fs::current_path(folder, error);
+    for (const auto& [name, value] : environment) {
+        setenv(name.c_str(), value.c_str(), 1);
+    }
+    std::vector<char*> argv{const_cast<char*>(NACRE_COMMAND)};
+    for (const std::string& argument : arguments) {
+        argv.push_back(const_cast<char*>(argument.c_str()));
+    }
+    argv.push_back(nullptr);
+    execv(argv.front(), argv.data());
+    _exit(127);
+}
+
+} // namespace
+
+Outcome runNacre(const std::vector<std::string>& arguments, const fs::path& folder, const Environment& environment) {
+    const fs::path logs = makeFolder("nacre-log");
+    const pid_t process = fork();
+    if (process == 0) {
+        becomeNacre(arguments, folder, logs, environment);
+    }
+    int status = 0;
+    waitpid(process, &status, 0);
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(logs / "output"),
+                    readText(logs / "error")};
+    fs::remove_all(logs);
+    return outcome;
+}
+
+std::vector<std::string> complaints(const Outcome& outcome) {
+    std::vector<std::string> lines;
+    std::istringstream text(outcome.error);
+    for (std::string line; std::getline(text, line);) {
+        if (!line.ends_with(" …")) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
+void expectComplaint(const Outcome& outcome, int exitCode, const std::vector<std::string>& parts) {
+    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.error;
+    const std::vector<std::string> lines = complaints(outcome);
+    ASSERT_EQ(lines.size(), 1U) << outcome.error;
+    EXPECT_TRUE(lines[0].starts_with("nacre: ")) << lines[0];
+    for (const std::string& part : parts) {
+        EXPECT_NE(lines[0].find(part), std::string::npos) << "'" << part << "' is not in: " << lines[0];
+    }
+}
+
+std::string readText(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void writeText(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+CommandTest::CommandTest() : folder_(makeFolder("nacre-test")) {}
+
+CommandTest::~CommandTest() {
+    fs::remove_all(folder_);
+}
+
+std::vector<std::string> CommandTest::files() const {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_)) {
+        names.push_back(fs::relative(entry.path(), folder_).string());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+} // namespace nacre::test

@@ -1,0 +1,51 @@
+// Runs the command `nacre` as a user would, and looks at what it leaves behind.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nacre::test {
+
+struct Outcome {
+    int exitCode = -1; ///< 128 + the signal's number when the command was killed
+    std::string output;
+    std::string error;
+};
+
+using Environment = std::vector<std::pair<std::string, std::string>>;
+
+/// Runs `nacre` with these arguments in `folder`, with `environment` on top of ours.
+Outcome runNacre(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                 const Environment& environment = {});
+
+/// What the command said on standard error besides its progress lines.
+std::vector<std::string> complaints(const Outcome& outcome);
+
+/// Asserts the exit code and that standard error is one sentence that contains every one of `parts`.
+void expectComplaint(const Outcome& outcome, int exitCode, const std::vector<std::string>& parts);
+
+std::string readText(const std::filesystem::path& file);
+void writeText(const std::filesystem::path& file, const std::string& text);
+
+/// A test with a folder of its own, removed afterwards.
+class CommandTest : public testing::Test {
+protected:
+    CommandTest();
+    ~CommandTest() override;
+
+    Outcome run(const std::vector<std::string>& arguments, const Environment& environment = {}) const {
+        return runNacre(arguments, folder_, environment);
+    }
+    /// Names of the files in the folder, sorted.
+    std::vector<std::string> files() const;
+    const std::filesystem::path& folder() const { return folder_; }
+
+private:
+    std::filesystem::path folder_;
+};
+
+} // namespace nacre::test
