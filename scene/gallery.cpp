@@ -1,0 +1,167 @@
+#include "scene/gallery.hpp"
+
+#include "nacre/presets.hpp"
+#include "scene/gallery/bodies.hpp"
+#include "scene/gallery/stage.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
+#include <functional>
+#include <future>
+
+namespace nacre::scene {
+
+namespace {
+
+using gallery::Body;
+
+constexpr std::size_t totalTriangles = 436508; // the thesis's scene, its table 4.1
+constexpr float millimetre = 0.001f;
+constexpr float plinthHeight = 0.06f, potHeight = 0.066f;
+
+/// A body, what it is made of and where it stands.
+struct Exhibit {
+    const char* name;
+    const char* preset;
+    Body (*make)(std::size_t triangles);
+    std::size_t triangles; ///< 0: what the others leave
+    glm::vec3 place;       ///< [m] where its lowest point stands
+    float heading;         ///< [deg] about +Y
+    float roll;            ///< [deg] about +Z, before
+    glm::vec3 color;
+    float roughness;
+};
+
+constexpr std::array<Exhibit, 5> exhibits{{
+    {"head", "skin", gallery::makeHead, 120000, {-0.17f, 0, -0.02f}, 16, 0, {0.72f, 0.50f, 0.41f}, 0.42f},
+    {"dragon", "jade", gallery::makeDragon, 150000, {0.29f, 0, -0.05f}, -14, 0, {0.42f, 0.66f, 0.44f}, 0.22f},
+    {"logo", "marble", gallery::makeLogo, 24000, {0.10f, 0, 0.155f}, 0, 0, {0.86f, 0.84f, 0.80f}, 0.25f},
+    {"shell", "nacre", gallery::makeShell, 46000, {-0.41f, 0, 0.06f}, -28, -62, {0.88f, 0.80f, 0.74f}, 0.2f},
+    {"plant", "leaf", gallery::makePlant, 0, {0.055f, 0.86f * potHeight, -0.12f}, 0, 0, {0.22f, 0.46f, 0.10f}, 0.38f},
+}};
+
+std::uint32_t addSurface(Scene& scene, const std::string& name, const glm::vec3& color, float roughness) {
+    Surface surface;
+    surface.name = name;
+    surface.baseColor = glm::vec4(color, 1);
+    surface.roughness = roughness;
+    scene.surfaces.push_back(surface);
+    return std::uint32_t(scene.surfaces.size() - 1);
+}
+
+void addInstance(Scene& scene, Mesh mesh, std::uint32_t surface, const glm::mat4& transform) {
+    mesh.surface = surface;
+    scene.instances.push_back({mesh.name, std::uint32_t(scene.meshes.size()), transform});
+    scene.meshes.push_back(std::move(mesh));
+}
+
+void addStage(Scene& scene) {
+    const std::uint32_t stone = addSurface(scene, "plinth", {0.10f, 0.10f, 0.11f}, 0.45f);
+    const std::uint32_t floor = addSurface(scene, "ground", {0.07f, 0.07f, 0.075f}, 0.6f);
+    const std::uint32_t clay = addSurface(scene, "pot", {0.30f, 0.13f, 0.08f}, 0.7f);
+    const glm::mat4 identity(1);
+    addInstance(scene, gallery::makeChamferedBox({0.56f, 0.5f * plinthHeight, 0.26f}, 0.006f), stone,
+                glm::translate(identity, {0, -0.5f * plinthHeight, 0}));
+    addInstance(scene, gallery::makeGround(1.6f), floor, glm::translate(identity, {0, -plinthHeight, 0}));
+    glm::vec3 pot = exhibits.back().place;
+    pot.y = 0;
+    addInstance(scene, gallery::makePot(potHeight), clay, glm::translate(identity, pot));
+}
+
+Mesh toMesh(const char* name, Body&& body) {
+    Mesh mesh;
+    mesh.name = name;
+    mesh.vertices.reserve(body.solid.positions.size());
+    for (std::size_t i = 0; i < body.solid.positions.size(); ++i)
+        mesh.vertices.push_back({millimetre * body.solid.positions[i], body.normals[i],
+                                 gallery::anyTangent(body.normals[i]), glm::vec2(0)});
+    mesh.indices = std::move(body.solid.indices);
+    return mesh;
+}
+
+/// Turned, and moved so that the lowest point comes to stand at the exhibit's place.
+glm::mat4 standing(const Exhibit& exhibit, const Mesh& mesh) {
+    glm::mat4 turn = glm::rotate(glm::mat4(1), glm::radians(exhibit.heading), {0, 1, 0});
+    turn = glm::rotate(turn, glm::radians(exhibit.roll), {0, 0, 1});
+    float lowest = std::numeric_limits<float>::max();
+    for (const Vertex& vertex : mesh.vertices)
+        lowest = std::min(lowest, (turn * glm::vec4(vertex.position, 1)).y);
+    return glm::translate(glm::mat4(1), exhibit.place - glm::vec3(0, lowest, 0)) * turn;
+}
+
+void addExhibits(Scene& scene) {
+    std::size_t left = totalTriangles - triangleCount(scene);
+    for (const Exhibit& exhibit : exhibits)
+        left -= exhibit.triangles;
+    std::array<std::future<Body>, exhibits.size()> bodies;
+    for (std::size_t i = 0; i < exhibits.size(); ++i)
+        bodies[i] =
+            std::async(std::launch::async, exhibits[i].make, exhibits[i].triangles ? exhibits[i].triangles : left);
+    for (std::size_t i = 0; i < exhibits.size(); ++i) {
+        const Exhibit& exhibit = exhibits[i];
+        const Material* preset = findPreset(exhibit.preset);
+        if (!preset)
+            throw SceneError(std::string("the gallery's ") + exhibit.name + " needs the preset '" + exhibit.preset +
+                             "'");
+        const std::uint32_t surface = addSurface(scene, exhibit.name, exhibit.color, exhibit.roughness);
+        scene.surfaces[surface].material = std::uint32_t(scene.materials.size());
+        scene.materials.push_back(*preset);
+        Mesh mesh = toMesh(exhibit.name, bodies[i].get());
+        const glm::mat4 transform = standing(exhibit, mesh);
+        addInstance(scene, std::move(mesh), surface, transform);
+    }
+}
+
+void addLights(Scene& scene, GalleryLight which) {
+    if (which != GalleryLight::Back) {
+        Light key;
+        key.name = "front key";
+        key.kind = LightKind::Directional;
+        key.color = {1, 0.95f, 0.88f};
+        key.intensity = 3.2f;
+        key.position = {-0.9f, 1.1f, 1.4f};
+        key.direction = glm::normalize(glm::vec3(0.62f, -0.62f, -0.75f));
+        Light fill;
+        fill.name = "front fill";
+        fill.kind = LightKind::Point;
+        fill.color = {0.80f, 0.88f, 1};
+        fill.intensity = 0.8f;
+        fill.position = {0.9f, 0.5f, 0.9f};
+        scene.lights.insert(scene.lights.end(), {key, fill});
+    }
+    if (which != GalleryLight::Front) {
+        Light back;
+        back.name = "back";
+        back.kind = LightKind::Spot;
+        back.color = {1, 0.93f, 0.82f};
+        back.intensity = 26;
+        back.position = {0.10f, 0.62f, -1.35f};
+        back.direction = glm::normalize(glm::vec3(0, 0.14f, 0) - back.position);
+        back.innerConeAngle = glm::radians(20.f);
+        back.outerConeAngle = glm::radians(27.f);
+        scene.lights.push_back(back);
+    }
+}
+
+} // namespace
+
+Scene makeGallery(GalleryLight light) {
+    Scene scene;
+    scene.name = "gallery";
+    addStage(scene);
+    addExhibits(scene);
+    addLights(scene, light);
+    Camera camera;
+    camera.name = "gallery";
+    camera.position = {0, 0.30f, 1.75f};
+    camera.target = {0, 0.125f, 0};
+    camera.verticalFieldOfView = 0.315f;
+    scene.cameras.push_back(camera);
+    scene.environment.zenith = {0.16f, 0.18f, 0.22f};
+    scene.environment.horizon = {0.10f, 0.10f, 0.11f};
+    scene.environment.ground = {0.03f, 0.03f, 0.03f};
+    return scene;
+}
+
+} // namespace nacre::scene
