@@ -1,6 +1,7 @@
 # nacre_warnings(TARGET): the project's own code is compiled with warnings as errors.
 function(nacre_warnings target)
-    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+        -Wno-missing-field-initializers -Werror)
     if(NACRE_SANITIZE)
         target_compile_options(${target} PUBLIC -fsanitize=${NACRE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
         target_link_options(${target} PUBLIC -fsanitize=${NACRE_SANITIZE})

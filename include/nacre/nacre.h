@@ -8,6 +8,7 @@
  *       on entry  every input image is visible to VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_READ_BIT;
  *                 every output image may be written by VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_WRITE_BIT
  *       on exit   outputs were written by VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_WRITE_BIT
+ *     Recorded outside a render pass, into a command buffer whose queue computes.
  *     Clobbered: the command buffer's compute pipeline, compute descriptor sets and push constants.
  *  3. Vulkan 1.2 core. What a device and its images must bring can be asked before a device exists.
  *  4. No globals. Contexts are independent; one context is used by one thread at a time, and its recorded work runs on
@@ -36,6 +37,7 @@
 #define NACRE_H
 
 #include <stdint.h>
+#include <string.h>
 #include <vulkan/vulkan_core.h>
 
 #ifdef __cplusplus
@@ -196,7 +198,8 @@ typedef struct NacreMaterial {
 
 /** Skin-like defaults: strength 1, translucency 0.5, scale 1, all exchange groups; the profile is the caller's. */
 static inline NacreMaterial nacreDefaultMaterial(void) {
-    NacreMaterial material = {0};
+    NacreMaterial material;
+    memset(&material, 0, sizeof(material));
     material.strength = 1.0f;
     material.translucency = 0.5f;
     material.scale = 1.0f;

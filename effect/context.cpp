@@ -1,0 +1,234 @@
+// Creation, resizing, materials and costs of a context.
+#include "context.hpp"
+
+#include "validation.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace nacre::effect {
+namespace {
+
+constexpr std::uint32_t maxSide = 16384;
+constexpr std::uint32_t maxFrames = 8;
+constexpr std::uint32_t maxRecords = 64;
+constexpr std::uint32_t maxLightCount = 1024;
+
+std::uint32_t countOr(std::uint32_t value, std::uint32_t fallback, std::uint32_t most, const char* field) {
+    if (value > most) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, "NacreContextInfo::", field, " is ", value, ", must be in [1, ", most, "]");
+    }
+    return value == 0 ? fallback : value;
+}
+
+void checkExtent(const Device& device, VkExtent2D extent) {
+    const std::uint32_t most = std::min(maxSide, device.limits.maxImageDimension2D);
+    if (extent.width == 0 || extent.height == 0 || extent.width > most || extent.height > most) {
+        fail(extent.width > most || extent.height > most ? NACRE_ERROR_LIMIT_EXCEEDED : NACRE_ERROR_INVALID_ARGUMENT,
+             "maxExtent is ", extent.width, "x", extent.height, ", each side must be in [1, ", most, "] px");
+    }
+}
+
+void checkLimit(std::uint32_t has, std::uint32_t needs, const char* limit) {
+    if (has < needs) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device's ", limit, " is ", has, ", the effect needs ", needs);
+    }
+}
+
+void openDevice(Device& device, const NacreContextInfo& info) {
+    device.handle = info.device;
+    device.allocator = info.allocator;
+    device.vk = loadDispatchTable(info.getInstanceProcAddr, info.instance, info.device);
+    device.vk.GetPhysicalDeviceMemoryProperties(info.physicalDevice, &device.memory);
+    VkPhysicalDeviceProperties properties{};
+    device.vk.GetPhysicalDeviceProperties(info.physicalDevice, &properties);
+    device.limits = properties.limits;
+
+    NacreRequirements requirements{};
+    nacreGetRequirements(&requirements);
+    if (properties.apiVersion < requirements.apiVersion) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device's Vulkan version is ",
+             VK_API_VERSION_MAJOR(properties.apiVersion), ".", VK_API_VERSION_MINOR(properties.apiVersion),
+             ", the effect needs 1.2");
+    }
+    VkPhysicalDeviceFeatures features{};
+    device.vk.GetPhysicalDeviceFeatures(info.physicalDevice, &features);
+    if (!features.shaderStorageImageWriteWithoutFormat || !features.shaderSampledImageArrayDynamicIndexing) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device lacks the feature ",
+             features.shaderStorageImageWriteWithoutFormat ? "shaderSampledImageArrayDynamicIndexing"
+                                                           : "shaderStorageImageWriteWithoutFormat");
+    }
+    checkLimit(device.limits.maxPerStageDescriptorSampledImages, requirements.maxPerStageDescriptorSampledImages,
+               "maxPerStageDescriptorSampledImages");
+    checkLimit(device.limits.maxPerStageDescriptorStorageImages, requirements.maxPerStageDescriptorStorageImages,
+               "maxPerStageDescriptorStorageImages");
+    checkLimit(device.limits.maxPerStageDescriptorStorageBuffers, requirements.maxPerStageDescriptorStorageBuffers,
+               "maxPerStageDescriptorStorageBuffers");
+}
+
+std::array<bool, techniqueCount> enabledTechniques(std::uint32_t mask) {
+    constexpr std::uint32_t known = ((1u << scatterTechniqueCount) - 1) << 1;
+    if ((mask & ~(known | 1u)) != 0) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::techniques is 0x", std::hex, mask,
+             ", knows only the bits 0x", known | 1u);
+    }
+    if ((mask & 1u << NACRE_TECHNIQUE_DEFAULT) != 0) {
+        mask |= 1u << defaultTechnique;
+    }
+    std::array<bool, techniqueCount> enabled{};
+    enabled.fill(mask == 0);
+    for (std::size_t i = 0; i < scatterTechniqueCount; ++i) {
+        enabled[i] = enabled[i] || (mask >> (i + 1) & 1u) != 0;
+    }
+    enabled[transmitIndex] = true;
+    return enabled;
+}
+
+void create(NacreContext_T& context, const NacreContextInfo& info) {
+    checkGiven(info.instance, "NacreContextInfo::instance");
+    checkGiven(info.physicalDevice, "NacreContextInfo::physicalDevice");
+    checkGiven(info.device, "NacreContextInfo::device");
+    checkGiven(info.getInstanceProcAddr, "NacreContextInfo::getInstanceProcAddr");
+    const std::uint32_t frames = countOr(info.framesInFlight, 2, maxFrames, "framesInFlight");
+    const std::uint32_t records = countOr(info.recordsPerFrame, 1, maxRecords, "recordsPerFrame");
+    const std::uint32_t materials = countOr(info.maxMaterials, 64, NACRE_MAX_MATERIALS, "maxMaterials");
+    context.maxLights = countOr(info.maxLights, 16, maxLightCount, "maxLights");
+    context.messageCallback = info.messageCallback;
+    context.userData = info.userData;
+    context.enabled = enabledTechniques(info.techniques);
+    openDevice(context.device, info);
+    checkExtent(context.device, info.maxExtent);
+    createPrograms(context, info.pipelineCache);
+    context.intermediates = createIntermediates(context, info.maxExtent);
+    context.maxExtent = info.maxExtent;
+    context.materials.emplace(context.device, materials, frames, context.enabled);
+    createFrames(context, frames, records);
+}
+
+void setMaterials(Context& context, std::uint32_t firstId, std::uint32_t count, const NacreMaterial* materials) {
+    const std::uint32_t most = context.materials->maxMaterial();
+    if (firstId == 0) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "firstId is 0, which means no subsurface scattering; must be in [1, ", most,
+             "]");
+    }
+    if (std::uint64_t{firstId} + count > std::uint64_t{most} + 1) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, "firstId is ", firstId, " and count ", count,
+             ", NacreContextInfo::maxMaterials is ", most);
+    }
+    if (count > 0) {
+        checkGiven(materials, "materials");
+    }
+    context.materials->set(firstId, std::span(materials, count));
+}
+
+void beginFrame(Context& context, std::uint32_t index) {
+    if (index >= context.frames.size()) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, "frame is ", index, ", the context has ", context.frames.size(),
+             " frames in flight");
+    }
+    context.materials->update(index);
+    Frame& frame = context.frames[index];
+    frame.begun = true;
+    frame.scatter.used = 0;
+    frame.transmit.used = 0;
+}
+
+/// The names of every technique's passes, for NacreCost::passNames.
+std::span<const char* const> passNames(std::size_t technique) {
+    static const auto names = [] {
+        std::array<std::vector<const char*>, techniqueCount> all;
+        for (std::size_t i = 0; i < techniqueCount; ++i) {
+            for (const Pass& pass : techniques[i]->passes) {
+                all[i].push_back(pass.name);
+            }
+        }
+        return all;
+    }();
+    return names[technique];
+}
+
+NacreCost costOf(const Context& context, std::size_t technique) {
+    const std::span<const char* const> names = passNames(technique);
+    NacreCost cost{};
+    cost.dispatchCount = static_cast<std::uint32_t>(names.size());
+    cost.passCount = cost.dispatchCount;
+    cost.passNames = names.data();
+    for (std::size_t i = 0; i < intermediateCount; ++i) {
+        if (techniques[technique]->uses() >> i & 1u) {
+            cost.intermediateBytes += context.intermediates[i].bytes();
+        }
+    }
+    cost.materialBytes = techniques[technique]->tableBytes + sizeof(MaterialParameters);
+    return cost;
+}
+
+} // namespace
+} // namespace nacre::effect
+
+using namespace nacre::effect;
+
+NacreResult nacreCreateContext(const NacreContextInfo* info, NacreContext* context) {
+    if (!info || !context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    *context = nullptr;
+    return guard(info->messageCallback, info->userData, [&] {
+        if (info->headerVersion != NACRE_HEADER_VERSION) {
+            fail(NACRE_ERROR_VERSION_MISMATCH, "NacreContextInfo::headerVersion is 0x", std::hex, info->headerVersion,
+                 ", the library's is 0x", NACRE_HEADER_VERSION);
+        }
+        auto created = std::make_unique<NacreContext_T>();
+        create(*created, *info);
+        *context = created.release();
+    });
+}
+
+void nacreDestroyContext(NacreContext context) {
+    delete context;
+}
+
+NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent) {
+    if (!context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(context->messageCallback, context->userData, [&] {
+        checkExtent(context->device, maxExtent);
+        context->intermediates = createIntermediates(*context, maxExtent);
+        context->maxExtent = maxExtent;
+    });
+}
+
+NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count, const NacreMaterial* materials) {
+    if (!context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(context->messageCallback, context->userData,
+                 [&] { setMaterials(*context, firstId, count, materials); });
+}
+
+NacreResult nacreBeginFrame(NacreContext context, uint32_t frame) {
+    if (!context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(context->messageCallback, context->userData, [&] { beginFrame(*context, frame); });
+}
+
+NacreResult nacreGetScatterCost(NacreContext context, NacreTechnique technique, NacreCost* cost) {
+    if (!context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(context->messageCallback, context->userData, [&] {
+        checkGiven(cost, "cost");
+        *cost = costOf(*context, scatterTechniqueIndex(*context, technique, "technique"));
+    });
+}
+
+NacreResult nacreGetTransmitCost(NacreContext context, NacreCost* cost) {
+    if (!context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(context->messageCallback, context->userData, [&] {
+        checkGiven(cost, "cost");
+        *cost = costOf(*context, transmitIndex);
+    });
+}

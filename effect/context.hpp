@@ -1,0 +1,102 @@
+// Everything a context owns, and the border between exceptions and result codes.
+#pragma once
+
+#include "device.hpp"
+#include "failure.hpp"
+#include "material_table.hpp"
+#include "pass_table.hpp"
+
+#include <new>
+#include <optional>
+#include <vector>
+
+namespace nacre::effect {
+
+/// Descriptors and uniform memory of one call in one frame.
+struct Record {
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    VkDescriptorBufferInfo parameters{};
+    VkDescriptorBufferInfo lights{}; ///< transmit
+    std::byte* mappedParameters = nullptr;
+    std::byte* mappedLights = nullptr;
+};
+
+/// The calls of one kind (scatter or transmit) in one frame.
+struct Records {
+    std::vector<Record> records;
+    std::uint32_t used = 0;
+};
+
+struct Frame {
+    bool begun = false;
+    Records scatter;
+    Records transmit;
+};
+
+/// Set layout, pipeline layout and the pipelines of one kind.
+struct Programs {
+    Owned<VkDescriptorSetLayout> setLayout;
+    Owned<VkPipelineLayout> layout;
+    IntermediateSet intermediates = 0;
+};
+
+/// The image or buffer of an Intermediate; both empty when no enabled technique uses it.
+struct IntermediateResource {
+    Image image;
+    Buffer buffer;
+    VkDeviceSize bytes() const { return image.size + buffer.size; }
+};
+
+struct Context {
+    Device device;
+    NacreMessageCallback messageCallback = nullptr;
+    void* userData = nullptr;
+    VkExtent2D maxExtent{};
+    std::uint32_t maxLights = 0;
+    std::array<bool, techniqueCount> enabled{};
+
+    Programs scatter;
+    Programs transmit;
+    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass
+    std::array<IntermediateResource, intermediateCount> intermediates;
+    std::optional<MaterialTable> materials; ///< made once the device is known
+    Buffer uniforms;
+    Owned<VkDescriptorPool> pool;
+    std::vector<Frame> frames;
+};
+
+/// Runs `body`; what it throws becomes a result code and a message.
+template <typename Body> NacreResult guard(NacreMessageCallback callback, void* userData, Body&& body) noexcept {
+    const auto report = [&](NacreResult result, const char* message) {
+        if (callback) {
+            callback(NACRE_SEVERITY_ERROR, message, userData);
+        }
+        return result;
+    };
+    try {
+        body();
+        return NACRE_SUCCESS;
+    } catch (const Failure& failure) {
+        return report(failure.result, failure.what());
+    } catch (const std::bad_alloc&) {
+        return report(NACRE_ERROR_OUT_OF_MEMORY, "out of host memory");
+    } catch (const std::exception& exception) {
+        return report(NACRE_ERROR_INVALID_ARGUMENT, exception.what());
+    }
+}
+
+/// Creates layouts and pipelines (programs.cpp).
+void createPrograms(Context& context, VkPipelineCache cache);
+/// Allocates the intermediates for an extent (programs.cpp).
+std::array<IntermediateResource, intermediateCount> createIntermediates(const Context& context, VkExtent2D extent);
+/// Allocates descriptor sets and uniform memory of all frames (frames.cpp).
+void createFrames(Context& context, std::uint32_t frames, std::uint32_t recordsPerFrame);
+/// The next unused record of a kind; throws when the frame was not begun or has none left.
+Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info);
+
+/// The index in `techniques` of a technique the context is made for; throws a Failure naming `field` (scatter.cpp).
+std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique technique, const char* field);
+
+} // namespace nacre::effect
+
+struct NacreContext_T : nacre::effect::Context {};

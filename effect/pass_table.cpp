@@ -1,0 +1,30 @@
+#include "pass_table.hpp"
+
+namespace nacre::effect {
+
+const std::array<IntermediateInfo, intermediateCount> intermediates{{
+    {.name = "nacre separable rows",
+     .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+     .extent = [](VkExtent2D extent) { return extent; }},
+    {.name = "nacre brute pixels",
+     .bytes = [](VkExtent2D extent) { return VkDeviceSize{sizeof(BrutePixel)} * extent.width * extent.height; }},
+    {.name = "nacre no shadow map",
+     .format = VK_FORMAT_R32_SFLOAT,
+     .extent =
+         [](VkExtent2D) {
+             return VkExtent2D{1, 1};
+         },
+     .array = true},
+}};
+
+const std::array<const Technique*, techniqueCount> techniques{&separableTechnique, &bruteTechnique, &transmitTechnique};
+
+IntermediateSet Technique::uses() const {
+    IntermediateSet set = 0;
+    for (const Pass& pass : passes) {
+        set |= pass.reads | pass.writes;
+    }
+    return set;
+}
+
+} // namespace nacre::effect

@@ -1,0 +1,85 @@
+// What the effect is made of, as data: intermediates, passes and techniques. Set layouts, allocations, barriers,
+// labels, timestamps and costs follow from these tables. A new technique is its shaders, one .cpp that defines a
+// Technique, its rows in `intermediates` and its name in `scatterTechniques`.
+#pragma once
+
+#include "nacre/material.hpp"
+#include "nacre/nacre.h"
+#include "shaders/shared.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace nacre::effect {
+
+/// Images and buffers between passes, in the order of the intermediate… constants of shared.h.
+enum class Intermediate : std::uint32_t {
+    Rows = intermediateRows,
+    Pixels = intermediatePixels,
+    NoShadowMap = intermediateNoShadowMap,
+    Count
+};
+inline constexpr std::size_t intermediateCount = static_cast<std::size_t>(Intermediate::Count);
+
+/// A set of intermediates, one bit each.
+using IntermediateSet = std::uint32_t;
+constexpr IntermediateSet bit(Intermediate intermediate) {
+    return 1u << static_cast<std::uint32_t>(intermediate);
+}
+
+/// An intermediate: a storage image of `format` and `extent`, or, with VK_FORMAT_UNDEFINED, a storage buffer of
+/// `bytes`.
+struct IntermediateInfo {
+    const char* name;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D (*extent)(VkExtent2D maxExtent) = nullptr;
+    VkDeviceSize (*bytes)(VkExtent2D maxExtent) = nullptr;
+    bool array = false; ///< the view is a 2D array view
+};
+extern const std::array<IntermediateInfo, intermediateCount> intermediates;
+
+/// One compute dispatch.
+struct Pass {
+    const char* name; ///< debug label and timestamp name
+    std::span<const std::uint32_t> spirv;
+    IntermediateSet reads = 0;
+    IntermediateSet writes = 0;
+    /// Workgroups for a render area, in px.
+    VkExtent3D (*grid)(VkExtent2D area) = nullptr;
+    /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this buffer; Count = not indirect.
+    Intermediate indirect = Intermediate::Count;
+    VkDeviceSize indirectOffset = 0;
+};
+
+/// A grid of one workgroup per width × height px.
+template <std::uint32_t width, std::uint32_t height> VkExtent3D tiles(VkExtent2D area) {
+    return {(area.width + width - 1) / width, (area.height + height - 1) / height, 1};
+}
+
+/// The share of the light within MaterialParameters::radius, at which the tables of the techniques end.
+inline constexpr double radiusShare = 0.999;
+
+/// A way to scatter, or transmit: its passes in order, and the table it needs of every material.
+struct Technique {
+    const char* name;
+    std::span<const Pass> passes;
+    std::size_t tableBytes; ///< per material, a multiple of 16
+    /// Fills one material's table (tableBytes, zeroed).
+    void (*buildTable)(const Material& material, const Profile& profile, std::span<std::byte> table);
+
+    IntermediateSet uses() const;
+};
+
+extern const Technique separableTechnique; // scatter_separable.cpp
+extern const Technique bruteTechnique;     // scatter_brute.cpp
+extern const Technique transmitTechnique;  // transmit.cpp
+
+/// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
+inline constexpr std::size_t scatterTechniqueCount = 2;
+inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
+inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
+extern const std::array<const Technique*, techniqueCount> techniques;
+inline constexpr NacreTechnique defaultTechnique = NACRE_TECHNIQUE_SEPARABLE;
+
+} // namespace nacre::effect

@@ -1,0 +1,134 @@
+// Set layouts, pipelines and intermediates, all of which follow from the pass table.
+#include "context.hpp"
+
+namespace nacre::effect {
+namespace {
+
+struct Binding {
+    std::uint32_t binding;
+    VkDescriptorType type;
+    std::uint32_t count = 1;
+};
+
+constexpr Binding commonBindings[] = {
+    {bindingParameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, {bindingMaterials, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+    {bindingTables, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},     {bindingDepth, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+    {bindingMaterialId, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},  {bindingNormal, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+    {bindingStrength, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+};
+constexpr Binding scatterBindings[] = {
+    {bindingIrradiance, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+    {bindingAlbedo, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+    {bindingScattered, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+};
+constexpr Binding transmitBindings[] = {
+    {bindingThickness, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
+    {bindingLights, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+    {bindingShadowMaps, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, maxShadowMaps},
+    {bindingTransmitted, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+    {bindingThicknessOut, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+};
+
+VkDescriptorType descriptorType(const IntermediateInfo& info) {
+    return info.format == VK_FORMAT_UNDEFINED ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+}
+
+void createLayout(Context& context, Programs& programs, std::span<const Binding> own) {
+    std::vector<Binding> bindings(std::begin(commonBindings), std::end(commonBindings));
+    bindings.insert(bindings.end(), own.begin(), own.end());
+    for (std::uint32_t i = 0; i < intermediateCount; ++i) {
+        if (programs.intermediates >> i & 1u) {
+            bindings.push_back({bindingIntermediates + i, descriptorType(intermediates[i])});
+        }
+    }
+    std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
+    for (const Binding& binding : bindings) {
+        layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
+    const Device& device = context.device;
+    VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    setInfo.bindingCount = static_cast<std::uint32_t>(layoutBindings.size());
+    setInfo.pBindings = layoutBindings.data();
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
+    check(device.vk.CreateDescriptorSetLayout(device.handle, &setInfo, device.allocator, &setLayout),
+          "vkCreateDescriptorSetLayout");
+    programs.setLayout = {device, setLayout, device.vk.DestroyDescriptorSetLayout};
+
+    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layoutInfo.setLayoutCount = 1;
+    layoutInfo.pSetLayouts = &setLayout;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(device.vk.CreatePipelineLayout(device.handle, &layoutInfo, device.allocator, &layout),
+          "vkCreatePipelineLayout");
+    programs.layout = {device, layout, device.vk.DestroyPipelineLayout};
+}
+
+Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass,
+                                 VkPipelineCache cache) {
+    VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    moduleInfo.codeSize = pass.spirv.size_bytes();
+    moduleInfo.pCode = pass.spirv.data();
+    VkShaderModule handle = VK_NULL_HANDLE;
+    check(device.vk.CreateShaderModule(device.handle, &moduleInfo, device.allocator, &handle), "vkCreateShaderModule");
+    const Owned<VkShaderModule> module{device, handle, device.vk.DestroyShaderModule};
+
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = handle;
+    info.stage.pName = "main";
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(device.vk.CreateComputePipelines(device.handle, cache, 1, &info, device.allocator, &pipeline),
+          "vkCreateComputePipelines");
+    nameObject(device, VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), pass.name);
+    return {device, pipeline, device.vk.DestroyPipeline};
+}
+
+} // namespace
+
+void createPrograms(Context& context, VkPipelineCache cache) {
+    for (std::size_t i = 0; i < techniqueCount; ++i) {
+        if (context.enabled[i]) {
+            (i == transmitIndex ? context.transmit : context.scatter).intermediates |= techniques[i]->uses();
+        }
+    }
+    createLayout(context, context.scatter, scatterBindings);
+    createLayout(context, context.transmit, transmitBindings);
+    for (std::size_t i = 0; i < techniqueCount; ++i) {
+        if (!context.enabled[i]) {
+            continue;
+        }
+        const Programs& programs = i == transmitIndex ? context.transmit : context.scatter;
+        for (const Pass& pass : techniques[i]->passes) {
+            context.pipelines[i].push_back(createPipeline(context.device, programs.layout.get(), pass, cache));
+        }
+    }
+}
+
+std::array<IntermediateResource, intermediateCount> createIntermediates(const Context& context, VkExtent2D extent) {
+    std::array<IntermediateResource, intermediateCount> resources;
+    const IntermediateSet used = context.scatter.intermediates | context.transmit.intermediates;
+    for (std::size_t i = 0; i < intermediateCount; ++i) {
+        const IntermediateInfo& info = intermediates[i];
+        if (!(used >> i & 1u)) {
+            continue;
+        }
+        if (info.format != VK_FORMAT_UNDEFINED) {
+            resources[i].image = createImage(context.device, info.extent(extent), info.format, info.array, info.name);
+            continue;
+        }
+        const VkDeviceSize bytes = info.bytes(extent);
+        if (bytes > context.device.limits.maxStorageBufferRange) {
+            fail(NACRE_ERROR_LIMIT_EXCEEDED, "maxExtent is ", extent.width, "x", extent.height, ": ", info.name,
+                 " would take ", bytes, " bytes, the device's maxStorageBufferRange is ",
+                 context.device.limits.maxStorageBufferRange,
+                 "; leave its technique out of "
+                 "NacreContextInfo::techniques or lower maxExtent");
+        }
+        resources[i].buffer = createDeviceBuffer(context.device, bytes, info.name);
+    }
+    return resources;
+}
+
+} // namespace nacre::effect

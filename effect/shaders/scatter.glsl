@@ -1,0 +1,65 @@
+// What every scatter pass includes: inputs, materials, and who gives light to whom.
+#extension GL_EXT_samplerless_texture_functions : require
+
+#include "shared.h"
+
+layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
+    ScatterParameters parameters;
+};
+layout(set = 0, binding = bindingMaterials, std430) readonly buffer Materials {
+    MaterialParameters materials[];
+};
+layout(set = 0, binding = bindingDepth) uniform texture2D depthImage;
+layout(set = 0, binding = bindingMaterialId) uniform utexture2D materialIdImage;
+layout(set = 0, binding = bindingNormal) uniform texture2D normalImage;
+layout(set = 0, binding = bindingStrength) uniform texture2D strengthImage;
+layout(set = 0, binding = bindingIrradiance) uniform texture2D irradianceImage;
+layout(set = 0, binding = bindingAlbedo) uniform texture2D albedoImage;
+layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredImage;
+
+#define view parameters.view
+#include "view.glsl"
+
+// The pixel's material, 0 where there is no subsurface scattering.
+uint materialAt(ivec2 pixel) {
+    uint id = texelFetch(materialIdImage, pixel, 0).r;
+    return id <= view.maxMaterial && materials[id].set != 0u ? id : 0u;
+}
+
+// Whether light that enters material `from` may leave material `to`: one material, or a common exchange group.
+bool exchanges(uint from, uint to) {
+    return from == to || (from != 0u && (materials[from].exchangeGroups & materials[to].exchangeGroups) != 0u);
+}
+
+// The albedo's share that is applied before scattering.
+vec3 albedoBefore(ivec2 pixel, uint material) {
+    return hasFlag(flagAlbedo) && materials[material].preAndPost != 0u ? sqrt(texelFetch(albedoImage, pixel, 0).rgb)
+                                                                       : vec3(1.0);
+}
+
+// The light that enters at a pixel of a material. Not finite where the irradiance is not.
+vec3 enteringLight(ivec2 pixel, uint material) {
+    return texelFetch(irradianceImage, pixel, 0).rgb * albedoBefore(pixel, material);
+}
+
+// Writes a pixel without subsurface scattering.
+void writeUnscattered(ivec2 pixel) {
+    vec3 light = texelFetch(irradianceImage, pixel, 0).rgb;
+    vec3 albedo = hasFlag(flagAlbedo) ? texelFetch(albedoImage, pixel, 0).rgb : vec3(1.0);
+    imageStore(scatteredImage, pixel, vec4(light * albedo, 1.0));
+}
+
+// Writes a pixel of a material, given the light that leaves there before strength and albedo.
+void writeScattered(ivec2 pixel, uint material, vec3 leaving) {
+    float strength = materials[material].strength;
+    if (hasFlag(flagStrength)) {
+        strength *= clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0);
+    }
+    vec3 entering = enteringLight(pixel, material);
+    vec3 light = isFinite(entering) ? mix(entering, leaving, strength) : leaving;
+    if (hasFlag(flagAlbedo)) {
+        vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
+        light *= materials[material].preAndPost != 0u ? sqrt(albedo) : albedo;
+    }
+    imageStore(scatteredImage, pixel, vec4(light, 1.0));
+}

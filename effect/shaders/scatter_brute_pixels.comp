@@ -1,0 +1,28 @@
+// First pass of `brute`: what the gather reads of every pixel, once: entering light, surface area, position, material.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "scatter.glsl"
+#include "surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = bindingIntermediates + intermediatePixels, std430) writeonly buffer Pixels {
+    BrutePixel pixels[];
+};
+
+void main() {
+    ivec2 local = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(local, view.areaExtent))) {
+        return;
+    }
+    ivec2 pixel = local + view.areaOffset;
+    uint material = materialAt(pixel);
+    float z = viewZ(pixel);
+    BrutePixel result = BrutePixel(vec4(0.0), vec4(0.0));
+    if (material != 0u && isValidZ(z)) {
+        vec3 light = enteringLight(pixel, material);
+        TangentPlane plane = tangentPlane(pixel, z);
+        result.light = isFinite(light) ? vec4(light, plane.area) : vec4(0.0);
+        result.position = vec4(viewPosition(pixel, z), float(material));
+    }
+    pixels[local.y * view.areaExtent.x + local.x] = result;
+}

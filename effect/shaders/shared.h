@@ -1,0 +1,163 @@
+// What C++ and GLSL share: bindings, table sizes, and the structures of uniform and storage buffers. Included by both;
+// vec4-aligned so that std140, std430 and C++ agree, which the static_asserts at the end check.
+#ifndef NACRE_EFFECT_SHARED_H
+#define NACRE_EFFECT_SHARED_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+
+namespace nacre::effect {
+
+using uint = std::uint32_t;
+struct vec2 {
+    float x, y;
+};
+struct ivec2 {
+    std::int32_t x, y;
+};
+struct vec4 {
+    float x, y, z, w;
+};
+struct uvec4 {
+    uint x, y, z, w;
+};
+struct mat4 {
+    vec4 columns[4];
+};
+#define NACRE_CONSTANT inline constexpr uint
+#else
+#define NACRE_CONSTANT const uint
+#endif
+
+// Bindings of set 0. Scatter and transmit have one layout each; a number means the same in both.
+NACRE_CONSTANT bindingParameters = 0;  // uniform: ScatterParameters or TransmitParameters
+NACRE_CONSTANT bindingMaterials = 1;   // storage: MaterialParameters[id]
+NACRE_CONSTANT bindingTables = 2;      // storage: the technique's table, one block a material
+NACRE_CONSTANT bindingDepth = 3;
+NACRE_CONSTANT bindingMaterialId = 4;
+NACRE_CONSTANT bindingNormal = 5;
+NACRE_CONSTANT bindingStrength = 6;
+NACRE_CONSTANT bindingIrradiance = 7;  // scatter
+NACRE_CONSTANT bindingAlbedo = 8;      // scatter
+NACRE_CONSTANT bindingScattered = 9;   // scatter, output
+NACRE_CONSTANT bindingThickness = 10;  // transmit
+NACRE_CONSTANT bindingLights = 11;     // transmit, storage: LightParameters[]
+NACRE_CONSTANT bindingShadowMaps = 12; // transmit, array of maxShadowMaps
+NACRE_CONSTANT bindingTransmitted = 13;  // transmit, output
+NACRE_CONSTANT bindingThicknessOut = 14; // transmit, output
+NACRE_CONSTANT bindingIntermediates = 16; // + Intermediate
+
+// The order of enum class Intermediate (pass_table.hpp), for layout(binding = bindingIntermediates + ...).
+NACRE_CONSTANT intermediateRows = 0;
+NACRE_CONSTANT intermediatePixels = 1;
+NACRE_CONSTANT intermediateNoShadowMap = 2;
+
+NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
+
+// ScatterParameters::flags, TransmitParameters::flags: which optional images are given.
+NACRE_CONSTANT flagNormal = 1u;
+NACRE_CONSTANT flagStrength = 2u;
+NACRE_CONSTANT flagAlbedo = 4u;
+NACRE_CONSTANT flagThickness = 8u;
+NACRE_CONSTANT flagThicknessOut = 16u;
+NACRE_CONSTANT flagThesisTransmittance = 32u;
+NACRE_CONSTANT flagHardwareDepth = 64u;
+
+// A camera. Lengths in mm, pixels are those of the whole image. A pixel's view-space position at view depth z is
+// (ray·z + origin, z) with ray = rayX·pixel.x + rayY·pixel.y + rayBias and origin alike (view.glsl).
+struct ViewParameters {
+    mat4 viewFromWorld; // rotation only
+    mat4 worldFromView; // view space in mm -> world space in scene units
+    vec4 depthRow;      // clip z = dot(depthRow, vec4(position, 1))
+    vec2 rayX, rayY;
+    vec2 rayBias, originBias;
+    vec2 originX, originY;
+    vec2 clipW;         // clip w = clipW.x·z + clipW.y
+    ivec2 areaOffset;   // px
+    ivec2 areaExtent;   // px
+    float mmPerUnit;
+    float normalScale;
+    float normalBias;
+    uint flags;
+    uint lightCount;
+    uint maxMaterial; // largest id in the tables
+};
+
+struct ScatterParameters {
+    ViewParameters view;
+};
+
+struct TransmitParameters {
+    ViewParameters view;
+    float normalOffset; // texels
+    float filterRadius; // texels
+    float unused0, unused1;
+};
+
+struct MaterialParameters {
+    float radius; // mm, 99.9 % of the light leaves within it; 0 = light leaves where it enters
+    float strength;
+    float translucency;
+    float thickness; // mm, 0 = not authored
+    uint set;        // 0 = this id was never set
+    uint exchangeGroups;
+    uint preAndPost;
+    uint unused0;
+};
+
+// Line-spread table of `separable`: entry i is the light between 0 and x = radius·(i / (entries - 1))², so the last
+// is half the light within the radius. The square puts entries where narrow layers need them.
+NACRE_CONSTANT lineSpreadEntries = 128;
+
+// Radial table of `brute`: entry i is R(r) in 1/mm² at r = radius·(i / (entries - 1))²; used from bruteCellRadius px on.
+NACRE_CONSTANT radialEntries = 256;
+NACRE_CONSTANT maxLayers = 32; // NACRE_MAX_LAYERS
+struct BruteTable {
+    vec4 meanFreePath; // w: number of layers; 0 = Burley's profile
+    vec4 layers[maxLayers];
+    vec4 radial[radialEntries];
+};
+struct BrutePixel {
+    vec4 light;    // irradiance; w: surface area in mm², 0 = contributes nothing
+    vec4 position; // view space, mm; w: material id
+};
+
+// Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0.
+NACRE_CONSTANT transmittanceEntries = 127;
+struct TransmitTable {
+    vec4 end; // x: mm; y: what thesisTransmittance multiplies distances with
+    vec4 transmittance[transmittanceEntries];
+};
+
+// A light of nacreCmdTransmit; world space, scene units.
+struct LightParameters {
+    mat4 shadowClipFromWorld;
+    vec4 position;   // w: range, 0 = unlimited
+    vec4 direction;  // normalised; w: shadowRange
+    vec4 irradiance; // w: millimetres per unit times 1e-3, i.e. metres per unit
+    float coneScale; // KHR_lights_punctual: spot attenuation = saturate(cos·coneScale + coneOffset)²
+    float coneOffset;
+    uint kind;
+    uint shadowMap; // NACRE_NO_SHADOW_MAP = none
+    uint shadowLayer;
+    uint unused0, unused1, unused2;
+};
+
+#ifdef __cplusplus
+static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
+              offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
+              sizeof(ViewParameters) == 240);
+static_assert(sizeof(ScatterParameters) == 240);
+static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
+static_assert(offsetof(MaterialParameters, set) == 16 && sizeof(MaterialParameters) == 32);
+static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
+static_assert(sizeof(BrutePixel) == 32);
+static_assert(sizeof(TransmitTable) == 16 * 128);
+static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 &&
+              sizeof(LightParameters) == 144);
+
+} // namespace nacre::effect
+#endif
+#undef NACRE_CONSTANT
+#endif

@@ -1,0 +1,65 @@
+// View-space geometry of a pixel: position in mm, pixel size in mm. Needs `view`, a ViewParameters, and `depthImage`.
+
+bool isFinite(float value) {
+    return !isnan(value) && !isinf(value);
+}
+
+bool isFinite(vec3 value) {
+    return !any(isnan(value)) && !any(isinf(value));
+}
+
+bool isInArea(ivec2 pixel) {
+    return all(greaterThanEqual(pixel, view.areaOffset)) && all(lessThan(pixel, view.areaOffset + view.areaExtent));
+}
+
+bool hasFlag(uint flag) {
+    return (view.flags & flag) != 0u;
+}
+
+// x and y of a pixel's ray: position = (ray·z + origin, z).
+vec2 rayAt(ivec2 pixel) {
+    return view.rayX * float(pixel.x) + view.rayY * float(pixel.y) + view.rayBias;
+}
+
+vec2 originAt(ivec2 pixel) {
+    return view.originX * float(pixel.x) + view.originY * float(pixel.y) + view.originBias;
+}
+
+// View z in mm (negative in front of a perspective camera). Hardware depth: clip z = depth · clip w, both linear in z
+// along the pixel's ray.
+float viewZ(ivec2 pixel) {
+    float depth = texelFetch(depthImage, pixel, 0).r;
+    if (!hasFlag(flagHardwareDepth)) {
+        return -depth * view.mmPerUnit;
+    }
+    vec4 row = view.depthRow;
+    float slope = depth * view.clipW.x - dot(row.xyz, vec3(rayAt(pixel), 1.0));
+    return (dot(row.xy, originAt(pixel)) + row.w - depth * view.clipW.y) / slope;
+}
+
+float clipW(float z) {
+    return view.clipW.x * z + view.clipW.y;
+}
+
+// Whether something was drawn there, in front of the camera.
+bool isValidZ(float z) {
+    return isFinite(z) && clipW(z) > 0.0;
+}
+
+vec3 viewPosition(ivec2 pixel, float z) {
+    return vec3(rayAt(pixel) * z + originAt(pixel), z);
+}
+
+// How far a view-space position moves, in mm, from one pixel to the next at constant z.
+vec2 stepX(float z) {
+    return view.rayX * z + view.originX;
+}
+
+vec2 stepY(float z) {
+    return view.rayY * z + view.originY;
+}
+
+// The normal image's value, in view space, unit length.
+vec3 viewNormal(vec3 value) {
+    return normalize(mat3(view.viewFromWorld) * (value * view.normalScale + view.normalBias));
+}

@@ -1,0 +1,117 @@
+#include "view.hpp"
+
+#include "validation.hpp"
+
+#include <cmath>
+
+namespace nacre::effect {
+namespace {
+
+/// Column-major 4x4: m(row, column).
+struct Matrix {
+    const float* values;
+    double operator()(int row, int column) const { return values[column * 4 + row]; }
+};
+
+struct Vector2 {
+    double x, y;
+};
+vec2 toFloat(Vector2 v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+/// Clip x and y are A·(x, y) + b(z); with A's inverse a pixel's ray is affine in the pixel's position.
+void setRays(ViewParameters& parameters, const Matrix& clip, const VkRect2D& area, double mmPerUnit,
+             const std::string& field) {
+    const double a = clip(0, 0) / mmPerUnit, b = clip(0, 1) / mmPerUnit;
+    const double c = clip(1, 0) / mmPerUnit, d = clip(1, 1) / mmPerUnit;
+    const double determinant = a * d - b * c;
+    if (determinant == 0) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is not a projection: x and y do not determine the pixel");
+    }
+    const auto solve = [&](Vector2 v) {
+        return Vector2{(d * v.x - b * v.y) / determinant, (a * v.y - c * v.x) / determinant};
+    };
+    const double wz = clip(3, 2) / mmPerUnit, w1 = clip(3, 3);
+    // Normalised device coordinates of a pixel centre: pixel·step + start.
+    const Vector2 step{2.0 / area.extent.width, 2.0 / area.extent.height};
+    const Vector2 start{(1.0 - 2.0 * area.offset.x) / area.extent.width - 1.0,
+                        (1.0 - 2.0 * area.offset.y) / area.extent.height - 1.0};
+    parameters.rayX = toFloat(solve({step.x * wz, 0}));
+    parameters.rayY = toFloat(solve({0, step.y * wz}));
+    parameters.rayBias = toFloat(solve({start.x * wz - clip(0, 2) / mmPerUnit, start.y * wz - clip(1, 2) / mmPerUnit}));
+    parameters.originX = toFloat(solve({step.x * w1, 0}));
+    parameters.originY = toFloat(solve({0, step.y * w1}));
+    parameters.originBias = toFloat(solve({start.x * w1 - clip(0, 3), start.y * w1 - clip(1, 3)}));
+    parameters.clipW = toFloat({wz, w1});
+    const auto row = [&](int column) { return static_cast<float>(clip(2, column) / mmPerUnit); };
+    parameters.depthRow = {row(0), row(1), row(2), static_cast<float>(clip(2, 3))};
+}
+
+void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, const std::string& field) {
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            double dot = 0;
+            for (int k = 0; k < 3; ++k) {
+                dot += view(i, k) * view(j, k);
+            }
+            if (std::abs(dot - (i == j)) > 1e-3) {
+                fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is not a rotation and translation: its rows ", i, " and ",
+                     j, " have the dot product ", dot);
+            }
+        }
+    }
+    const auto column = [](double x, double y, double z, double w) {
+        return vec4{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(w)};
+    };
+    Vector2 originXy{};
+    double originZ = 0;
+    for (int k = 0; k < 3; ++k) {
+        originXy.x -= view(k, 0) * view(k, 3);
+        originXy.y -= view(k, 1) * view(k, 3);
+        originZ -= view(k, 2) * view(k, 3);
+    }
+    for (int i = 0; i < 3; ++i) {
+        parameters.viewFromWorld.columns[i] = column(view(0, i), view(1, i), view(2, i), 0);
+        parameters.worldFromView.columns[i] =
+            column(view(i, 0) / mmPerUnit, view(i, 1) / mmPerUnit, view(i, 2) / mmPerUnit, 0);
+    }
+    parameters.viewFromWorld.columns[3] = column(0, 0, 0, 1);
+    parameters.worldFromView.columns[3] = column(originXy.x, originXy.y, originZ, 1);
+}
+
+} // namespace
+
+void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& area, bool worldMatrix,
+             const std::string& info) {
+    const std::string clipField = info + "::view.clipFromView";
+    checkFinite(view.clipFromView, clipField);
+    if (view.depthEncoding != NACRE_DEPTH_LINEAR && view.depthEncoding != NACRE_DEPTH_HARDWARE) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::view.depthEncoding is ", static_cast<int>(view.depthEncoding));
+    }
+    const float metersPerUnit = view.metersPerUnit == 0 ? 1.0f : view.metersPerUnit;
+    checkRange(metersPerUnit, 1e-6f, 1e6f, (info + "::view.metersPerUnit").c_str());
+    const double mmPerUnit = 1000.0 * metersPerUnit;
+
+    const Matrix clip{view.clipFromView};
+    if (clip(3, 0) != 0 || clip(3, 1) != 0) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, clipField, "[", clip(3, 0) != 0 ? 3 : 7, "] is ",
+             clip(3, 0) != 0 ? clip(3, 0) : clip(3, 1), ", must be 0: clip w may depend on view z alone");
+    }
+    if (clip(3, 2) > 0 || (clip(3, 2) == 0 && clip(3, 3) <= 0)) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, clipField, "[11] is ", clip(3, 2), " and [15] is ", clip(3, 3),
+             ": clip w must be positive in front of the camera, which looks along -Z");
+    }
+    setRays(parameters, clip, area, mmPerUnit, clipField);
+    if (worldMatrix) {
+        checkFinite(view.viewFromWorld, info + "::view.viewFromWorld");
+        setWorld(parameters, Matrix{view.viewFromWorld}, mmPerUnit, info + "::view.viewFromWorld");
+    }
+    parameters.areaOffset = {area.offset.x, area.offset.y};
+    parameters.areaExtent = {static_cast<std::int32_t>(area.extent.width),
+                             static_cast<std::int32_t>(area.extent.height)};
+    parameters.mmPerUnit = static_cast<float>(mmPerUnit);
+    parameters.flags |= view.depthEncoding == NACRE_DEPTH_HARDWARE ? flagHardwareDepth : 0u;
+}
+
+} // namespace nacre::effect
