@@ -33,13 +33,12 @@ double SumOfGaussiansProfile::radial(int channel, double r) const {
 }
 
 double SumOfGaussiansProfile::cdf(int channel, double r) const {
-    double beyond = 0;
+    double sum = 0;
     for (const Layer& layer : layers_) {
-        if (layer.variance > 0) {
-            beyond += layer.weight[channel] * std::exp(-r * r / (2 * layer.variance));
-        }
+        const double within = layer.variance > 0 ? -std::expm1(-r * r / (2 * layer.variance)) : 1;
+        sum += layer.weight[channel] * within;
     }
-    return 1 - beyond;
+    return sum;
 }
 
 double SumOfGaussiansProfile::lineSpread(int channel, double x) const {
