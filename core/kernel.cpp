@@ -12,6 +12,9 @@ namespace nacre {
 namespace {
 
 constexpr Range tapCountRange{3, 255, ""};
+// mm; a profile of point masses alone needs no taps but the middle one.
+constexpr double smallestRadius = 1e-6;
+
 constexpr Range extentRange{0, 1e5, " mm", false};
 
 void checkTapCount(int tapCount) {
@@ -104,7 +107,7 @@ void blendToCenter(Kernel& kernel, const Rgb& strength) {
 std::vector<double> quadraticOffsets(int tapCount, double extent) {
     std::vector<double> offsets;
     for (int i = 0; i < tapCount; ++i) {
-        const double t = 2.0 * i / (tapCount - 1) - 1;
+        const double t = double(2 * i - (tapCount - 1)) / (tapCount - 1);
         offsets.push_back(std::copysign(extent * t * t, t));
     }
     return offsets;
@@ -119,7 +122,7 @@ double gaussian(double variance, double r) {
 Kernel lineSpreadKernel(const Profile& profile, int tapCount, double radius) {
     checkTapCount(tapCount);
     if (radius == 0) {
-        radius = profile.quantileRadius(defaultKernelShare);
+        radius = std::max(profile.quantileRadius(defaultKernelShare), smallestRadius);
     }
     requireNoFault(findFault("radius", radius, extentRange));
     const HalfLineSpread half = tabulate(profile, radius);
@@ -136,7 +139,7 @@ Kernel lineSpreadKernel(const Profile& profile, int tapCount, double radius) {
         KernelTap tap{{}, k == 0 ? 0 : mass > 0 ? moment / mass : 0.5 * (lastEnd + end)};
         for (int channel = 0; channel < 3; ++channel) {
             const double cumulative = k == sideTaps ? 1 : profile.lineSpreadCumulative(channel, end);
-            tap.weight[channel] = (k == 0 ? 2 : 1) * (cumulative - last[channel]);
+            tap.weight[channel] = (k == 0 ? 2 : 1) * std::max(0.0, cumulative - last[channel]);
             last[channel] = cumulative;
         }
         side.push_back(tap);
