@@ -13,19 +13,19 @@ namespace nacre::renderer {
 /// How the diffuse light of subsurface materials is spread.
 enum class Technique { Default, Separable, Brute };
 
-/// Images that can be read back. Radiance is the picture before exposure and tone map, linear.
+/// Images that can be read back. All but Color are `samples` times as wide and as high as the picture.
 enum class Output {
-    Color,
-    Irradiance,
-    Scattered,
-    Transmitted,
-    Depth,
-    Normal,
-    Material,
-    Thickness,
-    Albedo,
-    Specular,
-    Radiance
+    Color,       ///< R G B, the picture: 8-bit sRGB values / 255
+    Irradiance,  ///< R G B, diffuse light without albedo and specular
+    Scattered,   ///< R G B, irradiance after scattering (the effect's output over the albedo)
+    Transmitted, ///< R G B, light that came through, as irradiance, the material's translucency in it
+    Depth,       ///< Z, distance along the view direction in scene units; infinite where there is nothing
+    Normal,      ///< X Y Z, shading normal in world space; zero where there is nothing
+    Material,    ///< ID, index into Scene::materials + 1; 0 = no subsurface scattering
+    Thickness,   ///< MM, the thickness that transmission used; 0 = none
+    Albedo,      ///< R G B, diffuse albedo
+    Specular,    ///< R G B, radiance of specular reflections
+    Radiance     ///< R G B, the picture in linear light, before exposure and tone curve
 };
 
 struct RenderSettings {
@@ -35,6 +35,10 @@ struct RenderSettings {
     Technique technique = Technique::Default;
     bool scatter = true;
     bool transmit = true;
+    /// [1 … 4] samples per axis and pixel: n² samples are tone mapped and averaged.
+    std::uint32_t samples = 1;
+    /// Adds half a bit of noise before rounding to 8 bits, against banding in smooth gradients.
+    bool dither = false;
 };
 
 struct PassTime {
@@ -55,7 +59,7 @@ struct FrameReport {
     double subsurfaceCoverage = 0; ///< [0, 1] share of pixels with a subsurface material
 };
 
-/// Pixels of one output: `channels` floats each, row 0 at the top. Color is 8-bit sRGB values / 255.
+/// Pixels of one output: `channels` floats each, row 0 at the top.
 struct Pixels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;

@@ -1,0 +1,118 @@
+#include "renderer/readback.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace nacre::renderer {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names rgb{"R", "G", "B"};
+
+template <typename Value, typename Convert>
+std::vector<float> convert(const std::vector<std::byte>& bytes, const Convert& toFloat) {
+    std::vector<Value> values(bytes.size() / sizeof(Value));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    std::vector<float> result(values.size());
+    std::transform(values.begin(), values.end(), result.begin(), toFloat);
+    return result;
+}
+
+std::vector<float> toFloats(vk::Format format, const std::vector<std::byte>& bytes) {
+    switch (format) {
+    case vk::Format::eR16G16B16A16Sfloat:
+    case vk::Format::eR16Sfloat:
+        return convert<std::uint16_t>(bytes, [](std::uint16_t half) { return glm::unpackHalf1x16(half); });
+    case vk::Format::eR16Uint:
+        return convert<std::uint16_t>(bytes, [](std::uint16_t value) { return static_cast<float>(value); });
+    case vk::Format::eR8G8B8A8Unorm:
+        return convert<std::uint8_t>(bytes, [](std::uint8_t value) { return static_cast<float>(value) / 255.0f; });
+    default:
+        return convert<float>(bytes, [](float value) { return value; });
+    }
+}
+
+/// The first channels of the image's pixels.
+Pixels read(Gpu& gpu, Image& image, const Names& channels) {
+    const std::vector<float> values = toFloats(image.info().format, downloadImage(gpu, image));
+    const vk::Extent2D extent = image.info().extent;
+    const std::size_t count = std::size_t{extent.width} * extent.height;
+    const std::size_t stride = values.size() / count;
+    Pixels pixels{extent.width, extent.height, channels, {}};
+    pixels.values.reserve(count * channels.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(i * stride);
+        pixels.values.insert(pixels.values.end(), first, first + static_cast<std::ptrdiff_t>(channels.size()));
+    }
+    return pixels;
+}
+
+/// The effect's output has the albedo in it; without it, it is the irradiance after scattering.
+Pixels readScattered(Gpu& gpu, const FrameImages& images) {
+    if (!images.scatter) {
+        return read(gpu, images.lighting.irradiance(), rgb);
+    }
+    Pixels pixels = read(gpu, images.subsurface.scattered(), rgb);
+    const Pixels albedo = read(gpu, images.gbuffer.image(GBuffer::Albedo), rgb);
+    std::transform(pixels.values.begin(), pixels.values.end(), albedo.values.begin(), pixels.values.begin(),
+                   [](float light, float share) { return share > 0 ? light / share : 0.0f; });
+    return pixels;
+}
+
+/// What transmission leaves behind; nothing where it is off.
+Pixels readTransmission(Gpu& gpu, Image& image, const Names& channels, bool transmit) {
+    Pixels pixels = read(gpu, image, channels);
+    if (!transmit) {
+        std::fill(pixels.values.begin(), pixels.values.end(), 0.0f);
+    }
+    return pixels;
+}
+
+/// Linear depth, infinite where there is nothing.
+Pixels readDepth(Gpu& gpu, GBuffer& gbuffer) {
+    Pixels pixels = read(gpu, gbuffer.image(GBuffer::Depth), {"Z"});
+    const Pixels normal = read(gpu, gbuffer.image(GBuffer::ShadingNormal), {"X", "Y", "Z", "W"});
+    for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+        if (normal.values[4 * i + 3] == 0) {
+            pixels.values[i] = std::numeric_limits<float>::infinity();
+        }
+    }
+    return pixels;
+}
+
+} // namespace
+
+Pixels readOutput(Gpu& gpu, Output output, const FrameImages& images) {
+    GBuffer& gbuffer = images.gbuffer;
+    switch (output) {
+    case Output::Color:
+        return read(gpu, images.compose.color(), rgb);
+    case Output::Radiance:
+        return read(gpu, images.compose.radiance(), rgb);
+    case Output::Irradiance:
+        return read(gpu, images.lighting.irradiance(), rgb);
+    case Output::Scattered:
+        return readScattered(gpu, images);
+    case Output::Transmitted:
+        return readTransmission(gpu, images.subsurface.transmitted(), rgb, images.transmit);
+    case Output::Depth:
+        return readDepth(gpu, gbuffer);
+    case Output::Normal:
+        return read(gpu, gbuffer.image(GBuffer::ShadingNormal), {"X", "Y", "Z"});
+    case Output::Material:
+        return read(gpu, gbuffer.image(GBuffer::MaterialId), {"ID"});
+    case Output::Thickness:
+        return readTransmission(gpu, images.subsurface.thickness(), {"MM"}, images.transmit);
+    case Output::Albedo:
+        return read(gpu, gbuffer.image(GBuffer::Albedo), rgb);
+    case Output::Specular:
+        return read(gpu, images.lighting.specular(), rgb);
+    }
+    throw RendererError("there is no such output");
+}
+
+} // namespace nacre::renderer

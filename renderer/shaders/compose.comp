@@ -1,0 +1,61 @@
+// Puts the picture's radiance together: albedo / pi · ((1 − translucency) · scattered + transmitted) + specular + emission
+// (include/nacre/nacre.h, "What to do with the results"), and the surroundings where there is nothing.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
+#include "environment.glsl"
+
+layout(local_size_x = groupSize, local_size_y = groupSize) in;
+layout(set = 0, binding = 0, std140) uniform View {
+    ViewConstants view;
+};
+layout(set = 0, binding = 1, std140) uniform EnvironmentBlock {
+    EnvironmentConstants environment;
+};
+layout(set = 0, binding = 2, std430) readonly buffer Translucencies {
+    float translucencies[]; // by material id
+};
+layout(set = 0, binding = 3) uniform sampler2D shadingNormalImage;
+layout(set = 0, binding = 4) uniform sampler2D albedoImage;
+layout(set = 0, binding = 5) uniform sampler2D emissionImage;
+layout(set = 0, binding = 6) uniform usampler2D materialIdImage;
+layout(set = 0, binding = 7) uniform sampler2D irradianceImage;
+layout(set = 0, binding = 8) uniform sampler2D specularImage;
+layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // has the albedo in it
+layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
+layout(set = 0, binding = 11) uniform sampler2D environmentImage;
+layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outRadiance;
+layout(push_constant) uniform Push {
+    uint scatter;
+    uint transmit;
+};
+
+#include "view.glsl"
+
+vec3 diffuseRadiance(ivec2 pixel) {
+    vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
+    vec3 reflected = scatter != 0u ? texelFetch(scatteredImage, pixel, 0).rgb
+                                   : albedo * texelFetch(irradianceImage, pixel, 0).rgb;
+    vec3 transmitted = vec3(0.0);
+    if (transmit != 0u) {
+        reflected *= 1.0 - translucencies[texelFetch(materialIdImage, pixel, 0).r];
+        transmitted = albedo * texelFetch(transmittedImage, pixel, 0).rgb;
+    }
+    return (reflected + transmitted) / pi;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(view.size.xy)))) {
+        return;
+    }
+    vec3 radiance;
+    if (texelFetch(shadingNormalImage, pixel, 0).w > 0.0) {
+        radiance = diffuseRadiance(pixel) + texelFetch(specularImage, pixel, 0).rgb +
+                   texelFetch(emissionImage, pixel, 0).rgb;
+    } else {
+        vec3 direction = environmentDirection(viewDirection(pixel), environment.rotation.xy);
+        radiance = textureLod(environmentImage, equirectangular(direction), 0.0).rgb * environment.rotation.z;
+    }
+    imageStore(outRadiance, pixel, vec4(min(radiance, 65504.0), 1.0));
+}

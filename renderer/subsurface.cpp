@@ -1,0 +1,236 @@
+#include "renderer/subsurface.hpp"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace nacre::renderer {
+namespace {
+
+NacreTechnique convert(Technique technique) {
+    switch (technique) {
+    case Technique::Separable:
+        return NACRE_TECHNIQUE_SEPARABLE;
+    case Technique::Brute:
+        return NACRE_TECHNIQUE_BRUTE;
+    case Technique::Default:
+        break;
+    }
+    return NACRE_TECHNIQUE_DEFAULT;
+}
+
+void copy(float (&target)[3], const glm::vec3& value) {
+    std::copy_n(glm::value_ptr(value), 3, target);
+}
+
+NacreImage convert(const Image& image) {
+    const ImageInfo& info = image.info();
+    return {.view = image.view(),
+            .format = static_cast<VkFormat>(info.format),
+            .layout = static_cast<VkImageLayout>(image.lastUsage().layout),
+            .extent = info.extent,
+            .usage = static_cast<VkImageUsageFlags>(info.usage)};
+}
+
+NacreLight convert(const PlacedLight& light) {
+    NacreLight result{};
+    result.kind = static_cast<NacreLightKind>(light.kind);
+    copy(result.position, light.position);
+    copy(result.direction, light.direction);
+    copy(result.irradiance, light.irradiance);
+    result.range = light.range;
+    result.innerConeAngle = light.innerConeAngle;
+    result.outerConeAngle = light.outerConeAngle;
+    const bool shadowed = light.shadowLayer != shared::noShadow;
+    result.shadowMap = shadowed ? 0 : NACRE_NO_SHADOW_MAP;
+    result.shadowLayer = shadowed ? light.shadowLayer : 0;
+    std::copy_n(glm::value_ptr(light.shadowClipFromWorld), 16, result.shadowClipFromWorld);
+    result.shadowRange = light.shadowRange;
+    return result;
+}
+
+/// `layers` is where the result's layers point to.
+NacreMaterial convert(const Material& material, std::vector<NacreLayer>& layers) {
+    for (const Layer& layer : material.layers) {
+        NacreLayer converted{};
+        std::transform(layer.weight.begin(), layer.weight.end(), converted.weight,
+                       [](double weight) { return static_cast<float>(weight); });
+        converted.variance = static_cast<float>(layer.variance);
+        layers.push_back(converted);
+    }
+    NacreMaterial result = nacreDefaultMaterial();
+    result.layers = layers.data();
+    result.layerCount = static_cast<std::uint32_t>(layers.size());
+    if (material.meanFreePath) {
+        std::transform(material.meanFreePath->begin(), material.meanFreePath->end(), result.meanFreePath,
+                       [](double length) { return static_cast<float>(length); });
+    }
+    result.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
+    result.strength = static_cast<float>(material.strength);
+    result.translucency = static_cast<float>(material.translucency);
+    result.scale = static_cast<float>(material.scale);
+    return result;
+}
+
+Image makeOutput(Gpu& gpu, const char* name, vk::Format format, vk::Extent2D extent, NacreImageSlot slot) {
+    using Kind = vk::ImageUsageFlagBits;
+    return {gpu, ImageInfo{.name = name,
+                           .format = format,
+                           .extent = extent,
+                           .usage = Kind::eStorage | Kind::eSampled | Kind::eTransferSrc | effectUsage(slot)}};
+}
+
+void keepMessage(NacreSeverity severity, const char* message, void* userData) {
+    if (severity == NACRE_SEVERITY_ERROR) {
+        *static_cast<std::string*>(userData) = message;
+    }
+}
+
+} // namespace
+
+vk::ImageUsageFlags effectUsage(NacreImageSlot slot) {
+    NacreImageRequirements requirements{};
+    if (nacreGetImageRequirements(slot, &requirements) != NACRE_SUCCESS) {
+        throw RendererError("the effect library does not say what it needs of its images");
+    }
+    return static_cast<vk::ImageUsageFlags>(requirements.usage);
+}
+
+Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
+                       const std::vector<PlacedLight>& lights)
+    : info_(info), message_(std::make_unique<std::string>()) {
+    std::transform(lights.begin(), lights.end(), std::back_inserter(lights_),
+                   [](const PlacedLight& light) { return convert(light); });
+    constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
+    scattered_ = makeOutput(gpu, "scattered", color, info.extent, NACRE_IMAGE_SCATTERED);
+    transmitted_ = makeOutput(gpu, "transmitted", color, info.extent, NACRE_IMAGE_TRANSMITTED);
+    thickness_ = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, info.extent, NACRE_IMAGE_THICKNESS_OUT);
+    translucencies_ = Buffer(gpu, "translucencies", (materials.size() + 1) * sizeof(float),
+                             vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
+    NacreContextInfo contextInfo{};
+    contextInfo.headerVersion = NACRE_HEADER_VERSION;
+    contextInfo.instance = *gpu.instance;
+    contextInfo.physicalDevice = *gpu.physicalDevice;
+    contextInfo.device = *gpu.device;
+    contextInfo.getInstanceProcAddr = gpu.context.getDispatcher()->vkGetInstanceProcAddr;
+    contextInfo.maxExtent = info.extent;
+    contextInfo.framesInFlight = info.framesInFlight;
+    contextInfo.recordsPerFrame = 1;
+    contextInfo.maxMaterials = std::max(1u, static_cast<std::uint32_t>(materials.size()));
+    contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights.size()));
+    contextInfo.messageCallback = keepMessage;
+    contextInfo.userData = message_.get();
+    NacreContext context = nullptr;
+    check(nacreCreateContext(&contextInfo, &context));
+    context_.reset(context);
+    setMaterials(materials);
+}
+
+void Subsurface::check(NacreResult result) const {
+    if (result != NACRE_SUCCESS) {
+        throw RendererError("the effect refused: " +
+                            (message_->empty() ? std::string(nacreResultString(result)) : *message_));
+    }
+}
+
+void Subsurface::setMaterials(const std::vector<Material>& materials) {
+    std::vector<std::vector<NacreLayer>> layers(materials.size());
+    std::vector<NacreMaterial> converted;
+    std::vector<float> translucencies{0};
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (const std::string fault = findFault(materials[i]); !fault.empty()) {
+            throw RendererError("the material '" + materials[i].name + "' is not valid: " + fault);
+        }
+        converted.push_back(convert(materials[i], layers[i]));
+        translucencies.push_back(converted.back().translucency);
+    }
+    if (!converted.empty()) {
+        check(nacreSetMaterials(context_.get(), 1, static_cast<std::uint32_t>(converted.size()), converted.data()));
+    }
+    std::memcpy(translucencies_.mapped(), translucencies.data(), translucencies.size() * sizeof(float));
+}
+
+NacreView Subsurface::makeView(const View& view) const {
+    NacreView result{};
+    std::copy_n(glm::value_ptr(view.clipFromView), 16, result.clipFromView);
+    std::copy_n(glm::value_ptr(view.viewFromWorld), 16, result.viewFromWorld);
+    result.depthEncoding = NACRE_DEPTH_LINEAR;
+    result.metersPerUnit = info_.metersPerUnit;
+    return result;
+}
+
+void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps) {
+    GBuffer& gbuffer = frame.gbuffer;
+    Image& depth = gbuffer.image(GBuffer::Depth);
+    Image& materialId = gbuffer.image(GBuffer::MaterialId);
+    Image& normal = gbuffer.image(GBuffer::VertexNormal);
+    Image& authored = gbuffer.image(GBuffer::Thickness);
+    prepare(commandBuffer, {{depth, usage::computeRead},
+                            {materialId, usage::computeRead},
+                            {normal, usage::computeRead},
+                            {authored, usage::computeRead},
+                            {shadowMaps, usage::computeRead},
+                            {transmitted_, usage::computeWrite},
+                            {thickness_, usage::computeWrite}});
+    const NacreImage maps = convert(shadowMaps);
+    const NacreCost cost = transmitCost();
+    NacreTransmitInfo info{};
+    info.view = makeView(frame.view);
+    info.frame = frame.index;
+    info.depth = convert(depth);
+    info.materialId = convert(materialId);
+    info.normal = convert(normal);
+    info.thickness = convert(authored);
+    info.lightCount = static_cast<std::uint32_t>(lights_.size());
+    info.lights = lights_.data();
+    info.shadowMapCount = 1;
+    info.shadowMaps = &maps;
+    info.transmitted = convert(transmitted_);
+    info.thicknessOut = convert(thickness_);
+    info.timestamps = {frame.timer.pool(), frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ")};
+    check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
+}
+
+void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
+                         Technique technique) {
+    GBuffer& gbuffer = frame.gbuffer;
+    Image& depth = gbuffer.image(GBuffer::Depth);
+    Image& materialId = gbuffer.image(GBuffer::MaterialId);
+    Image& normal = gbuffer.image(GBuffer::VertexNormal);
+    Image& albedo = gbuffer.image(GBuffer::Albedo);
+    prepare(commandBuffer, {{irradiance, usage::computeRead},
+                            {depth, usage::computeRead},
+                            {materialId, usage::computeRead},
+                            {normal, usage::computeRead},
+                            {albedo, usage::computeRead},
+                            {scattered_, usage::computeWrite}});
+    const NacreCost cost = scatterCost(technique);
+    NacreScatterInfo info{};
+    info.view = makeView(frame.view);
+    info.frame = frame.index;
+    info.technique = convert(technique);
+    info.irradiance = convert(irradiance);
+    info.depth = convert(depth);
+    info.materialId = convert(materialId);
+    info.normal = convert(normal);
+    info.albedo = convert(albedo);
+    info.scattered = convert(scattered_);
+    info.timestamps = {frame.timer.pool(), frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ")};
+    check(nacreCmdScatter(context_.get(), *commandBuffer, &info));
+}
+
+NacreCost Subsurface::scatterCost(Technique technique) const {
+    NacreCost cost{};
+    check(nacreGetScatterCost(context_.get(), convert(technique), &cost));
+    return cost;
+}
+
+NacreCost Subsurface::transmitCost() const {
+    NacreCost cost{};
+    check(nacreGetTransmitCost(context_.get(), &cost));
+    return cost;
+}
+
+} // namespace nacre::renderer

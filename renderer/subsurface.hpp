@@ -1,0 +1,69 @@
+// The effect, called through include/nacre/nacre.h alone. Internal to the renderer.
+#pragma once
+
+#include "nacre/nacre.h"
+#include "renderer/frame_timer.hpp"
+#include "renderer/gbuffer.hpp"
+#include "renderer/lights.hpp"
+#include "renderer/renderer.hpp"
+
+namespace nacre::renderer {
+
+/// What the effect wants of an image beyond what the renderer does with it.
+vk::ImageUsageFlags effectUsage(NacreImageSlot slot);
+
+/// The effect's context, its outputs, and the materials in it.
+class Subsurface {
+public:
+    struct Info {
+        vk::Extent2D extent;
+        std::uint32_t framesInFlight = 1;
+        float metersPerUnit = 1;
+    };
+
+    Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
+               const std::vector<PlacedLight>& lights);
+
+    /// Scattered light with the albedo in it (RGBA16F); where there is no subsurface material, irradiance times albedo.
+    Image& scattered() { return scattered_; }
+    /// Transmitted irradiance, without albedo. RGBA16F.
+    Image& transmitted() { return transmitted_; }
+    /// The thickness transmission used, mm, 0 where there was none. R16F.
+    Image& thickness() { return thickness_; }
+    /// Material translucency by id, for compose.
+    const Buffer& translucencies() const { return translucencies_; }
+
+    struct Frame {
+        std::uint32_t index = 0;
+        View view;
+        GBuffer& gbuffer;
+        FrameTimer& timer;
+    };
+
+    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps);
+    void scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
+                 Technique technique);
+    /// Replaces all materials; the device must be idle.
+    void setMaterials(const std::vector<Material>& materials);
+    NacreCost scatterCost(Technique technique) const;
+    NacreCost transmitCost() const;
+
+private:
+    struct Destroy {
+        void operator()(NacreContext context) const { nacreDestroyContext(context); }
+    };
+
+    void check(NacreResult result) const;
+    NacreView makeView(const View& view) const;
+
+    Info info_;
+    std::vector<NacreLight> lights_;
+    Image scattered_;
+    Image transmitted_;
+    Image thickness_;
+    Buffer translucencies_;
+    std::unique_ptr<std::string> message_; ///< the effect's last error; its address is known to the context
+    std::unique_ptr<NacreContext_T, Destroy> context_;
+};
+
+} // namespace nacre::renderer
