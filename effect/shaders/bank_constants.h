@@ -1,0 +1,33 @@
+// What is tuned in the Gaussian bank. Included by GLSL and C++ (inside a namespace). The figures are mean dB over the
+// twelve cases of tests/support/scatter_scenes, two seeds, unless said otherwise; docs/scatter.md has the table.
+
+// Pyramid levels; level l has texels 2^l px wide.
+const int bankLevels = 6;
+// Kernels: identity, full-resolution 3x3, levels 1 … 6.
+const int bankSize = bankLevels + 2;
+// Bins of the weight table per doubling of px/mm, and their number (BankTable).
+const int bankBinsPerOctave = 8;
+const int bankBinCount = 113;
+
+// Depth acts through Gaussian weights g(q) = max(0, 1 − q/4)⁴ ≈ e^−q of the squared distance along the view direction;
+// t is a texel's width in mm at its depth.
+
+// Reduction: pixels of a 2x2 block further apart in depth than this many texel widths are two surfaces, and the texel
+// keeps the one with more light-receiving area.
+const float bankSurfaceSeparation = 2.5f;
+// Blur: q = Δz² / (bankBlurDepthVariance · t²). 1.25 is twice half the variance (in texels) of a whole level.
+const float bankBlurDepthVariance = 1.25f;
+// Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
+const float bankLevelDepthVariance = 5.0f;
+// Combination, full-resolution 3x3: q = Δz² / (bankPixelDepthVariance · t²).
+const float bankPixelDepthVariance = 2.0f;
+// A tap this many texel widths away in depth is no slope but another surface: it is missing, which leaves its share of
+// the light to the narrower kernels. Over the next texel width the rule fades in. Without it: −0.4 dB.
+const float bankMissingDepth = 6.0f;
+// Area of surface per pixel, relative to one that faces the camera, is at most this. Without area weights: −0.5 dB,
+// −3 dB on spheres at 60 px.
+const float bankLargestArea = 8.0f;
+// A tile of 32x32 px whose level 1, with two texels around, changes by less than this many texel widths in depth from
+// texel to texel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines").
+// 1.2 is a slope of 50 degrees; no tile of the twelve cases changes by more than 0.05 dB from this.
+const float bankSmoothDepth = 1.2f;

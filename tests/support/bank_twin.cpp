@@ -1,0 +1,403 @@
+#include "tests/support/bank_twin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::tests {
+namespace {
+
+namespace constants {
+#include "effect/shaders/bank_constants.h"
+} // namespace constants
+static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
+static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
+              constants::bankBinCount == BankTable::binCount);
+
+constexpr int tileSize = 32;
+
+double falloff(double q) {
+    return std::pow(std::max(0.0, 1 - q / 4), 4);
+}
+
+// What a 2x2 block of texels becomes: those of one surface.
+struct Block {
+    std::array<const RawTexel*, 4> texels{};
+
+    template <typename Keep> RawTexel sum(Keep keep) const {
+        RawTexel result;
+        double depth = 0;
+        for (const RawTexel* texel : texels) {
+            if (texel == nullptr || texel->mass <= 0 || !keep(*texel)) {
+                continue;
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                result.light[channel] += texel->light[channel] / 4;
+            }
+            result.area += texel->area / 4;
+            result.mass += texel->mass / 4;
+            result.dropped |= texel->dropped;
+            depth += texel->mass / 4 * texel->depth;
+        }
+        result.depth = result.mass > 0 ? depth / result.mass : 0;
+        return result;
+    }
+};
+
+// Depth differences along x and y inside a 2x2 block of pixels, over the pairs that are both on the surface.
+double blockSlope(const std::array<const RawTexel*, 4>& texels, const RawTexel& block, double separation) {
+    const auto kept = [&](int i) {
+        return texels[i] != nullptr && texels[i]->mass > 0 && std::abs(texels[i]->depth - block.depth) <= separation;
+    };
+    const auto slope = [&](int a, int b, int c, int d) {
+        double sum = 0;
+        int pairs = 0;
+        if (kept(a) && kept(b)) {
+            sum += texels[b]->depth - texels[a]->depth;
+            ++pairs;
+        }
+        if (kept(c) && kept(d)) {
+            sum += texels[d]->depth - texels[c]->depth;
+            ++pairs;
+        }
+        return pairs > 0 ? sum / pairs : 0.0;
+    };
+    return std::hypot(slope(0, 1, 2, 3), slope(0, 2, 1, 3));
+}
+
+} // namespace
+
+// Numerator and denominator of the result, per channel.
+struct BankTwin::Accumulator {
+    Rgb light{};
+    Rgb mass{};
+
+    void add(const Rgb& weight, const Rgb& kernelLight, double kernelMass) {
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += weight[channel] * kernelLight[channel];
+            mass[channel] += weight[channel] * kernelMass;
+        }
+    }
+};
+
+BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : scene_(scene), settings_(settings) {
+    for (const auto& profile : scene.profiles) {
+        tables_.emplace_back(*profile);
+    }
+    tilesX_ = (scene.width + tileSize - 1) / tileSize;
+    tilesY_ = (scene.height + tileSize - 1) / tileSize;
+    raw_[0].width = scene.width;
+    raw_[0].height = scene.height;
+    for (std::size_t i = 0; i < scene.depth.size(); ++i) {
+        const bool scatters = scene.materialId[i] != 0;
+        raw_[0].texels.push_back(scatters ? RawTexel{scene.irradiance[i], 1, 1, scene.depth[i]} : RawTexel{});
+    }
+    for (int level = 1; level <= bankLevels; ++level) {
+        reduceLevel(level);
+    }
+    for (int level = 1; level <= bankLevels; ++level) {
+        blurLevel(level);
+    }
+    for (int tileY = 0; tileY < tilesY_; ++tileY) {
+        for (int tileX = 0; tileX < tilesX_; ++tileX) {
+            const bool empty = raw_[5].at(tileX, tileY)->mass <= 0;
+            tileKinds_.push_back(empty ? 0 : isSmooth(tileX, tileY) ? 1 : 2);
+        }
+    }
+    result_ = scene.irradiance;
+    for (int y = 0; y < scene.height; y += 2) {
+        for (int x = 0; x < scene.width; x += 2) {
+            combineQuad(x, y, tileKinds_[y / tileSize * tilesX_ + x / tileSize] == 1);
+        }
+    }
+}
+
+double BankTwin::smoothShare() const {
+    const auto smooth = std::count(tileKinds_.begin(), tileKinds_.end(), 1);
+    const auto edge = std::count(tileKinds_.begin(), tileKinds_.end(), 2);
+    return static_cast<double>(smooth) / static_cast<double>(std::max<std::ptrdiff_t>(smooth + edge, 1));
+}
+
+void BankTwin::reduceLevel(int level) {
+    const TwinLevel<RawTexel>& from = raw_[level - 1];
+    TwinLevel<RawTexel>& to = raw_[level];
+    // Whole tiles: what lies outside the image is empty.
+    to.width = level == 1 ? tilesX_ * tileSize / 2 : (from.width + 1) / 2;
+    to.height = level == 1 ? tilesY_ * tileSize / 2 : (from.height + 1) / 2;
+    for (int y = 0; y < to.height; ++y) {
+        for (int x = 0; x < to.width; ++x) {
+            Block block;
+            double nearest = 1e300;
+            double farthest = 0;
+            for (int i = 0; i < 4; ++i) {
+                block.texels[i] = from.at(2 * x + (i & 1), 2 * y + (i >> 1));
+                if (block.texels[i] != nullptr && block.texels[i]->mass > 0) {
+                    nearest = std::min(nearest, block.texels[i]->depth);
+                    farthest = std::max(farthest, block.texels[i]->depth);
+                }
+            }
+            if (farthest == 0) {
+                to.texels.push_back({});
+                continue;
+            }
+            const double separation = constants::bankSurfaceSeparation * texelWidth(level, nearest);
+            RawTexel texel = block.sum([](const RawTexel&) { return true; });
+            if (farthest - nearest > separation) {
+                const RawTexel front = block.sum([&](const RawTexel& t) { return t.depth - nearest <= separation; });
+                const RawTexel back = block.sum([&](const RawTexel& t) { return farthest - t.depth <= separation; });
+                texel = front.mass >= back.mass ? front : back;
+                texel.dropped = true;
+            }
+            if (level == 1 && settings_.areaWeights) {
+                const double slope = blockSlope(block.texels, texel, separation) / texelWidth(0, texel.depth);
+                const double area = std::min<double>(std::sqrt(1 + slope * slope), constants::bankLargestArea);
+                texel.area *= area;
+                for (double& value : texel.light) {
+                    value *= area;
+                }
+            }
+            to.texels.push_back(texel);
+        }
+    }
+}
+
+// What a tap adds to the denominator: on the surface its weight, on another one the weight it would have had.
+double BankTwin::countedWeight(double kernel, double weight, double depthDifference, double width) const {
+    const double beyond = std::abs(depthDifference) / width - constants::bankMissingDepth;
+    return settings_.missingRule ? weight + std::clamp(beyond, 0.0, 1.0) * kernel : weight;
+}
+
+void BankTwin::blurLevel(int level) {
+    TwinLevel<BlurredTexel>& to = blurred_[level];
+    to.width = raw_[level].width;
+    to.height = raw_[level].height;
+    for (int y = 0; y < to.height; ++y) {
+        for (int x = 0; x < to.width; ++x) {
+            to.texels.push_back(blurTexel(level, x, y));
+        }
+    }
+}
+
+BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
+    constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    const TwinLevel<RawTexel>& raw = raw_[level];
+    double depth = raw.at(x, y)->depth;
+    if (raw.at(x, y)->mass <= 0) { // an empty texel stands on the surface its neighbours are on
+        double mass = 0;
+        double sum = 0;
+        for (int i = 0; i < 9; ++i) {
+            const RawTexel* tap = raw.at(x + i % 3 - 1, y + i / 3 - 1);
+            mass += tap != nullptr ? tap->mass : 0;
+            sum += tap != nullptr ? tap->mass * tap->depth : 0;
+        }
+        if (mass <= 0) {
+            return {};
+        }
+        depth = sum / mass;
+    }
+    const double width = texelWidth(level, depth);
+    Rgb light{};
+    double area = 0;
+    double mass = 0;
+    double counted = 0;
+    for (int i = 0; i < 25; ++i) {
+        const double kernel = binomial[i % 5] * binomial[i / 5];
+        const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 - 2);
+        if (tap == nullptr || tap->mass <= 0) {
+            counted += kernel;
+            continue;
+        }
+        const double difference = tap->depth - depth;
+        const double weight =
+            kernel * falloff(difference * difference / (constants::bankBlurDepthVariance * width * width));
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += weight * tap->light[channel];
+        }
+        area += weight * tap->area;
+        mass += weight * tap->mass;
+        counted += countedWeight(kernel, weight, difference, width);
+    }
+    BlurredTexel result;
+    result.depth = depth;
+    if (area > 0) {
+        result.mass = mass / counted;
+        for (int channel = 0; channel < 3; ++channel) {
+            result.light[channel] = light[channel] / area * result.mass;
+        }
+    }
+    return result;
+}
+
+// The tile's texels of level 1 and two more around agree in depth with their neighbours; so do then the coarser ones.
+bool BankTwin::isSmooth(int tileX, int tileY) const {
+    constexpr int halo = 2;
+    const int count = tileSize / 2;
+    const int lastX = (tileX + 1) * count + halo - 1;
+    const int lastY = (tileY + 1) * count + halo - 1;
+    for (int y = tileY * count - halo; y <= lastY; ++y) {
+        for (int x = tileX * count - halo; x <= lastX; ++x) {
+            const RawTexel* texel = raw_[1].at(x, y);
+            if (texel == nullptr || texel->mass <= 0) {
+                continue;
+            }
+            const RawTexel* right = x < lastX ? raw_[1].at(x + 1, y) : nullptr;
+            const RawTexel* below = y < lastY ? raw_[1].at(x, y + 1) : nullptr;
+            const double limit = constants::bankSmoothDepth * texelWidth(1, texel->depth);
+            for (const RawTexel* next : {right, below}) {
+                if (next != nullptr && next->mass > 0 && std::abs(next->depth - texel->depth) > limit) {
+                    return false;
+                }
+            }
+            if (texel->dropped) {
+                return false;
+            }
+        }
+    }
+    return settings_.smoothTiles;
+}
+
+// The pixels of a 2x2 quad that have one material and lie on one surface share their weights and their texels' depth
+// weights, taken at the first of them.
+void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
+    std::array<bool, 4> done{};
+    for (int leader = 0; leader < 4; ++leader) {
+        const RawTexel* first = raw_[0].at(quadX + leader % 2, quadY + leader / 2);
+        if (first == nullptr || first->mass <= 0 || done[leader]) {
+            continue;
+        }
+        const double depth = first->depth;
+        const int material = scene_.materialId[scene_.index(quadX + leader % 2, quadY + leader / 2)];
+        const BankWeights weights = tables_[material - 1].at(scene_.focalLength / depth);
+        for (int i = leader; i < 4; ++i) {
+            const int x = quadX + i % 2;
+            const int y = quadY + i / 2;
+            const RawTexel* pixel = raw_[0].at(x, y);
+            const double separation = constants::bankSurfaceSeparation * texelWidth(1, depth);
+            if (pixel == nullptr || done[i] || scene_.materialId[scene_.index(x, y)] != material ||
+                (!smooth && std::abs(pixel->depth - depth) > separation)) {
+                continue;
+            }
+            done[i] = true;
+            Accumulator sum;
+            sum.add(weights[0], pixel->light, 1);
+            if (smooth) {
+                addPixelsOnSlope(sum, weights[1], x, y);
+            } else {
+                addPixels(sum, weights[1], x, y);
+            }
+            for (int level = 1; level <= bankLevels; ++level) {
+                addLevel(sum, weights[level + 1], level, x, y, level == 1 ? pixel->depth : depth);
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                result_[scene_.index(x, y)][channel] =
+                    sum.mass[channel] > 0 ? sum.light[channel] / sum.mass[channel] : pixel->light[channel];
+            }
+        }
+    }
+}
+
+// Depth step along one axis within the pixel's quad, the mean of the pairs that both scatter.
+double BankTwin::quadSlope(int x, int y, int dx, int dy) const {
+    double sum = 0;
+    int pairs = 0;
+    for (int i = 0; i < 2; ++i) {
+        const int fromX = (x & ~1) + (dy != 0 ? i : 0);
+        const int fromY = (y & ~1) + (dx != 0 ? i : 0);
+        const RawTexel* from = raw_[0].at(fromX, fromY);
+        const RawTexel* to = raw_[0].at(fromX + dx, fromY + dy);
+        if (from != nullptr && to != nullptr && from->mass > 0 && to->mass > 0) {
+            sum += to->depth - from->depth;
+            ++pairs;
+        }
+    }
+    return pairs > 0 ? sum / pairs : 0;
+}
+
+// As addPixels, with the depths of the slope the quad stands on in place of the taps' own: separable.
+void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
+    const double width = texelWidth(0, raw_[0].at(x, y)->depth);
+    const auto side = [&](double slope) {
+        return 0.5 * falloff(slope * slope / (constants::bankPixelDepthVariance * width * width));
+    };
+    const double sideX = side(quadSlope(x, y, 1, 0));
+    const double sideY = side(quadSlope(x, y, 0, 1));
+    const double total = (1 + 2 * sideX) * (1 + 2 * sideY);
+    Rgb light{};
+    double mass = 0;
+    for (int i = 0; i < 9; ++i) {
+        const RawTexel* tap = raw_[0].at(x + i % 3 - 1, y + i / 3 - 1);
+        if (tap == nullptr || tap->mass <= 0) {
+            continue;
+        }
+        const double kernel = (i % 3 == 1 ? 1 : sideX) * (i / 3 == 1 ? 1 : sideY) / total;
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += kernel * tap->light[channel];
+        }
+        mass += kernel;
+    }
+    sum.add(weight, light, mass);
+}
+
+void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
+    constexpr double binomial[] = {0.25, 0.5, 0.25};
+    const double depth = raw_[0].at(x, y)->depth;
+    const double width = texelWidth(0, depth);
+    Rgb light{};
+    double mass = 0;
+    double counted = 0;
+    for (int i = 0; i < 9; ++i) {
+        const double kernel = binomial[i % 3] * binomial[i / 3];
+        const RawTexel* tap = raw_[0].at(x + i % 3 - 1, y + i / 3 - 1);
+        if (tap == nullptr || tap->mass <= 0) {
+            counted += kernel;
+            continue;
+        }
+        const double difference = tap->depth - depth;
+        const double tapWeight =
+            kernel * falloff(difference * difference / (constants::bankPixelDepthVariance * width * width));
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += tapWeight * tap->light[channel];
+        }
+        mass += tapWeight;
+        counted += countedWeight(kernel, tapWeight, difference, width);
+    }
+    for (double& value : light) {
+        value /= counted;
+    }
+    sum.add(weight, light, mass / counted);
+}
+
+void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, double depth) const {
+    const TwinLevel<BlurredTexel>& blurred = blurred_[level];
+    const double width = texelWidth(level, depth);
+    const double positionX = (x + 0.5) / (1 << level) - 0.5;
+    const double positionY = (y + 0.5) / (1 << level) - 0.5;
+    const int firstX = static_cast<int>(std::floor(positionX));
+    const int firstY = static_cast<int>(std::floor(positionY));
+    const double fractionX = positionX - firstX;
+    const double fractionY = positionY - firstY;
+    Rgb light{};
+    double mass = 0;
+    double total = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
+        const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
+        const BlurredTexel& tap = *blurred.at(tapX, tapY);
+        double tapWeight = (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 == 1 ? fractionY : 1 - fractionY);
+        const double difference = tap.depth - depth;
+        const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
+        tapWeight *= tap.depth > 0 ? falloff(q) : 0;
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += tapWeight * tap.light[channel];
+        }
+        mass += tapWeight * tap.mass;
+        total += tapWeight;
+    }
+    if (total > 0) {
+        for (double& value : light) {
+            value /= total;
+        }
+        sum.add(weight, light, mass / total);
+    }
+}
+
+} // namespace nacre::tests

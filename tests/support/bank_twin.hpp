@@ -1,0 +1,81 @@
+// The bank technique in double precision on the CPU, pass by pass: what effect/shaders/bank_*.comp compute.
+#pragma once
+
+#include "nacre/bank.hpp"
+#include "tests/support/scatter_scenes.hpp"
+
+namespace nacre::tests {
+
+/// Switches off one ingredient at a time, to measure what it is worth.
+struct TwinSettings {
+    bool areaWeights = true;
+    bool missingRule = true;
+    bool smoothTiles = true;
+};
+
+/// A texel of the reduced pyramid.
+struct RawTexel {
+    Rgb light{};          ///< Σ area · irradiance / pixels
+    double area = 0;      ///< Σ area / pixels, area relative to a surface facing the camera
+    double mass = 0;      ///< [0, 1] share of the texel's pixels that count
+    double depth = 0;     ///< mm; 0 where mass is 0
+    bool dropped = false; ///< pixels of another surface were left out, here or further down
+};
+
+/// A texel of the blurred pyramid.
+struct BlurredTexel {
+    Rgb light{};      ///< mean irradiance · mass
+    double mass = 0;  ///< [0, 1] share of the kernel that lies on the surface
+    double depth = 0; ///< mm; 0 where nothing is near
+};
+
+template <typename Texel> struct TwinLevel {
+    int width = 0;
+    int height = 0;
+    std::vector<Texel> texels;
+
+    const Texel* at(int x, int y) const {
+        return x >= 0 && y >= 0 && x < width && y < height ? &texels[static_cast<std::size_t>(y) * width + x] : nullptr;
+    }
+};
+
+class BankTwin {
+public:
+    explicit BankTwin(const ScatterScene& scene, const TwinSettings& settings = {});
+
+    /// Pass A. [level 1 … bankLevels]
+    const TwinLevel<RawTexel>& raw(int level) const { return raw_[level]; }
+    /// Pass B.
+    const TwinLevel<BlurredTexel>& blurred(int level) const { return blurred_[level]; }
+    /// Pass C: the scattered irradiance of every pixel.
+    const std::vector<Rgb>& result() const { return result_; }
+    /// Share of the 32x32 px tiles with subsurface pixels that are combined as smooth.
+    double smoothShare() const;
+
+private:
+    struct Accumulator;
+
+    double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
+    void reduceLevel(int level);
+    void blurLevel(int level);
+    BlurredTexel blurTexel(int level, int x, int y) const;
+    bool isSmooth(int tileX, int tileY) const;
+    void combineQuad(int quadX, int quadY, bool smooth);
+    void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
+    void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
+    void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, double depth) const;
+    double quadSlope(int x, int y, int dx, int dy) const;
+    double countedWeight(double kernel, double weight, double depthDifference, double texelWidth) const;
+
+    const ScatterScene& scene_;
+    TwinSettings settings_;
+    std::vector<BankTable> tables_;
+    std::array<TwinLevel<RawTexel>, bankLevels + 1> raw_; ///< level 0 is the image
+    std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurred_;
+    int tilesX_ = 0;
+    int tilesY_ = 0;
+    std::vector<int> tileKinds_; ///< 0 empty, 1 smooth, 2 edge
+    std::vector<Rgb> result_;
+};
+
+} // namespace nacre::tests

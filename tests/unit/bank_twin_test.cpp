@@ -1,0 +1,54 @@
+// The bank algorithm in double precision against the brute-force reference: what its shaders can at best reach.
+#include "tests/support/bank_twin.hpp"
+#include "tests/support/scatter_reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace nacre::tests {
+namespace {
+
+// Kinds of scene × footprints of 4, 20 and 60 px. Two seeds; the constants were chosen on the first alone.
+TEST(BankTwin, IsCloseToTheReference) {
+    for (const std::uint32_t seed : {1u, 7u}) {
+        double sum = 0;
+        int cases = 0;
+        for (const SceneKind kind : allSceneKinds) {
+            for (const double footprint : {4.0, 20.0, 60.0}) {
+                const ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .seed = seed});
+                const std::vector<ReferencePixel> reference = scatterReference(scene, 7);
+                const BankTwin twin(scene);
+                const double quality = psnr(scene, reference, twin.result());
+                std::printf("seed %u %-10s %.1f dB, largest error %.3f, unfiltered %.1f dB\n", seed, scene.name.c_str(),
+                            quality, largestError(scene, reference, twin.result()),
+                            psnr(scene, reference, scene.irradiance));
+                EXPECT_GE(quality, 40) << scene.name << " seed " << seed;
+                sum += quality;
+                ++cases;
+            }
+        }
+        std::printf("seed %u mean %.2f dB\n", seed, sum / cases);
+        EXPECT_GE(sum / cases, 50) << "seed " << seed;
+    }
+}
+
+// What does not scatter never enters, however bright.
+TEST(BankTwin, KeepsAConstantFieldConstant) {
+    for (const SceneKind kind : allSceneKinds) {
+        ScatterScene scene = makeScatterScene({.kind = kind, .footprint = 20, .width = 160, .height = 96});
+        for (std::size_t i = 0; i < scene.irradiance.size(); ++i) {
+            scene.irradiance[i] = scene.materialId[i] != 0 ? Rgb{0.5, 0.5, 0.5} : Rgb{1e6, 1e6, 1e6};
+        }
+        const BankTwin twin(scene);
+        for (std::size_t i = 0; i < scene.irradiance.size(); ++i) {
+            if (scene.materialId[i] != 0) {
+                ASSERT_NEAR(twin.result()[i][0], 0.5, 1e-9) << scene.name << " pixel " << i;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace nacre::tests
