@@ -62,6 +62,9 @@ struct Container {
 
 Container openContainer(const GltfFile& file, std::span<const std::uint8_t> bytes) {
     if (bytes.size() < 12 || wordAt(bytes, 0) != glbMagic) {
+        if (file.path.extension() == ".glb") {
+            failGltf(file, "does not begin with a GLB header");
+        }
         return {bytes, {}};
     }
     const std::uint32_t length = wordAt(bytes, 8);

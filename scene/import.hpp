@@ -6,7 +6,8 @@
 namespace nacre::scene {
 
 /// Reads a model (glTF 2.0, GLB, or any format Assimp knows) or a scene file (JSON, docs/schemas/scene.schema.json),
-/// told apart by content. A model without camera or lights gets a fitted camera and a three-point light set.
+/// told apart by content. A model without camera or lights gets a fitted camera and a three-point light set; one with
+/// lights an exposure that goes with them.
 /// Throws SceneError with one sentence that names the file and the field.
 Scene load(const std::filesystem::path& file);
 
@@ -17,7 +18,15 @@ Scene loadModel(const std::filesystem::path& file);
 /// back light (when it has none).
 void addMissingViewAndLights(Scene& scene);
 
-/// Gives every surface this subsurface material (the CLI's --material).
+/// Chooses an exposure that goes with the scene's own lights, where they would leave a white surface in the middle of
+/// the scene more than four times too bright or too dark (exporters write anything from 1 to 100,000 lux).
+void fitExposure(Scene& scene);
+
+/// Gives a surface of the scene the subsurface material of that index (or `none`), with its albedo, roughness and
+/// specular where the surface has no texture for them.
+void setSurfaceMaterial(Scene& scene, Surface& surface, std::uint32_t material);
+
+/// Gives every surface this subsurface material (the CLI's --material), which becomes the scene's only one.
 void assignMaterial(Scene& scene, const Material& material);
 
 } // namespace nacre::scene

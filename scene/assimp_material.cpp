@@ -1,0 +1,156 @@
+#include "scene/assimp_material.hpp"
+
+#include "scene/image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <strings.h>
+
+namespace nacre::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A texture's file: where the model says, else its name beside the model, whatever the case of its letters.
+fs::path findTexture(const fs::path& model, std::string reference) {
+    std::ranges::replace(reference, '\\', '/');
+    const fs::path folder = model.parent_path().empty() ? fs::path(".") : model.parent_path();
+    std::error_code ignored;
+    if (fs::is_regular_file(folder / reference, ignored)) {
+        return folder / reference;
+    }
+    const std::string name = fs::path(reference).filename().string();
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+        if (::strcasecmp(entry.path().filename().c_str(), name.c_str()) == 0 && entry.is_regular_file(ignored)) {
+            return entry.path();
+        }
+    }
+    return {};
+}
+
+Texture decodeEmbedded(const aiTexture& embedded, const std::string& field, bool srgb) {
+    if (embedded.mHeight == 0) {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded.pcData);
+        return decodeTexture(std::span(bytes, embedded.mWidth), field, srgb);
+    }
+    Texture texture;
+    texture.name = field;
+    texture.width = embedded.mWidth;
+    texture.height = embedded.mHeight;
+    texture.srgb = srgb;
+    if (texture.width == 0 || std::max(texture.width, texture.height) > maxImageSide) {
+        throw SceneError(field + " is " + std::to_string(texture.width) + " x " + std::to_string(texture.height) +
+                         " pixels, must be 1 to " + std::to_string(maxImageSide) + " a side");
+    }
+    const std::size_t count = std::size_t{texture.width} * texture.height;
+    texture.pixels.reserve(count * 4);
+    for (const aiTexel& texel : std::span(embedded.pcData, count)) {
+        texture.pixels.insert(texture.pixels.end(), {texel.r, texel.g, texel.b, texel.a});
+    }
+    return texture;
+}
+
+float clamp01(float value) {
+    return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.0f;
+}
+
+} // namespace
+
+Texture AssimpMaterials::load(const std::string& reference, const std::string& field, bool srgb) const {
+    if (const aiTexture* embedded = source_.GetEmbeddedTexture(reference.c_str())) {
+        return decodeEmbedded(*embedded, field, srgb);
+    }
+    const fs::path found = findTexture(file_, reference);
+    if (found.empty()) {
+        throw SceneError(field + " does not exist");
+    }
+    return readTexture(found, srgb);
+}
+
+std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initializer_list<aiTextureType> types,
+                                       bool srgb) {
+    for (const aiTextureType type : types) {
+        aiString path;
+        if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0) {
+            continue;
+        }
+        const std::string reference = path.C_Str();
+        const auto [entry, isNew] = textures_.try_emplace({reference, srgb}, none);
+        if (isNew) {
+            const std::string field = file_.string() + ": material \"" + aiMaterial(material).GetName().C_Str() +
+                                      "\": texture \"" + reference + "\"";
+            scene_.textures.push_back(load(reference, field, srgb));
+            entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+        }
+        return entry->second;
+    }
+    return none;
+}
+
+void AssimpMaterials::addOpacity(const aiMaterial& material, Surface& surface) {
+    const std::uint32_t opacity = texture(material, {aiTextureType_OPACITY}, false);
+    if (opacity == none || surface.baseColorTexture == none) {
+        return;
+    }
+    surface.alphaMask = true;
+    aiString colorPath;
+    aiString opacityPath;
+    material.GetTexture(aiTextureType_DIFFUSE, 0, &colorPath);
+    material.GetTexture(aiTextureType_OPACITY, 0, &opacityPath);
+    if (colorPath == opacityPath) {
+        return; // its alpha is the opacity
+    }
+    const Texture mask = scene_.textures[opacity];
+    Texture masked = scene_.textures[surface.baseColorTexture];
+    for (std::size_t y = 0; y < masked.height; ++y) {
+        for (std::size_t x = 0; x < masked.width; ++x) {
+            const std::size_t from = (y * mask.height / masked.height) * mask.width + x * mask.width / masked.width;
+            masked.pixels[(y * masked.width + x) * 4 + 3] = mask.pixels[from * 4];
+        }
+    }
+    surface.baseColorTexture = static_cast<std::uint32_t>(scene_.textures.size());
+    scene_.textures.push_back(std::move(masked));
+}
+
+std::uint32_t AssimpMaterials::surface(unsigned index) {
+    const auto [entry, isNew] = surfaces_.try_emplace(index, static_cast<std::uint32_t>(scene_.surfaces.size()));
+    if (!isNew) {
+        return entry->second;
+    }
+    Surface surface;
+    if (index < source_.mNumMaterials) {
+        const aiMaterial& material = *source_.mMaterials[index];
+        surface.name = aiMaterial(material).GetName().C_Str();
+        surface.baseColorTexture = texture(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, true);
+        surface.normalTexture = texture(material, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}, false);
+        aiColor4D color(0.8f, 0.8f, 0.8f, 1);
+        const bool hasColor = material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS ||
+                              material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
+        // Many exporters write black beside a texture that they mean to be seen as it is.
+        const bool black = color.r == 0 && color.g == 0 && color.b == 0;
+        surface.baseColor = surface.baseColorTexture != none && (black || !hasColor)
+                                ? glm::vec4(1)
+                                : glm::vec4(clamp01(color.r), clamp01(color.g), clamp01(color.b), 1);
+        float number = 0;
+        if (material.Get(AI_MATKEY_METALLIC_FACTOR, number) == aiReturn_SUCCESS) {
+            surface.metallic = clamp01(number);
+        }
+        if (material.Get(AI_MATKEY_ROUGHNESS_FACTOR, number) == aiReturn_SUCCESS) {
+            surface.roughness = clamp01(number);
+        } else if (material.Get(AI_MATKEY_SHININESS, number) == aiReturn_SUCCESS && number > 0) {
+            // Blinn and Phong's exponent n is α² = 2/(n + 2) (Walter et al. 2007); α = roughness².
+            surface.roughness = clamp01(std::pow(2 / (number + 2), 0.25f));
+        }
+        int twoSided = 0;
+        surface.doubleSided = material.Get(AI_MATKEY_TWOSIDED, twoSided) == aiReturn_SUCCESS && twoSided != 0;
+        aiColor3D emission;
+        if (material.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == aiReturn_SUCCESS) {
+            surface.emission = {clamp01(emission.r), clamp01(emission.g), clamp01(emission.b)};
+        }
+        addOpacity(material, surface);
+    }
+    scene_.surfaces.push_back(std::move(surface));
+    return entry->second;
+}
+
+} // namespace nacre::scene

@@ -1,0 +1,75 @@
+#include "scene/import.hpp"
+
+#include "scene/assimp_import.hpp"
+#include "scene/file.hpp"
+#include "scene/gltf.hpp"
+#include "scene/scene_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace nacre::scene {
+namespace {
+
+std::string extensionOf(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
+bool startsLikeJson(std::span<const std::uint8_t> bytes) {
+    const auto first = std::ranges::find_if(bytes, [](std::uint8_t c) { return std::isspace(c) == 0; });
+    return first != bytes.end() && *first == '{';
+}
+
+enum class Format { Gltf, SceneFile, Assimp };
+
+Format formatOf(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+    if (bytes.empty()) {
+        throw SceneError(file.string() + ": is empty");
+    }
+    const std::string extension = extensionOf(file);
+    switch (gltfKind(bytes)) {
+    case GltfKind::Version1:
+        return Format::Assimp;
+    case GltfKind::Version2:
+        return Format::Gltf;
+    case GltfKind::None:
+        break;
+    }
+    if (extension == ".gltf" || extension == ".glb") {
+        return Format::Gltf; // whose reader says what is wrong with it
+    }
+    if (extension == ".json" || (startsLikeJson(bytes) && !assimpKnows(file))) {
+        return Format::SceneFile;
+    }
+    return Format::Assimp;
+}
+
+Scene readModel(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, Format format) {
+    return format == Format::Gltf ? loadGltf(file, bytes) : loadWithAssimp(file);
+}
+
+} // namespace
+
+Scene loadModel(const std::filesystem::path& file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    const Format format = formatOf(file, bytes);
+    if (format == Format::SceneFile) {
+        throw SceneError(file.string() + ": is not a model");
+    }
+    return readModel(file, bytes, format);
+}
+
+Scene load(const std::filesystem::path& file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    const Format format = formatOf(file, bytes);
+    Scene scene = format == Format::SceneFile ? readSceneFile(file, bytes) : readModel(file, bytes, format);
+    if (format != Format::SceneFile) {
+        fitExposure(scene);
+    }
+    addMissingViewAndLights(scene);
+    return scene;
+}
+
+} // namespace nacre::scene

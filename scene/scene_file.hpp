@@ -1,0 +1,15 @@
+// Scene files: JSON, docs/schemas/scene.schema.json.
+#pragma once
+
+#include "scene/scene.hpp"
+
+#include <span>
+
+namespace nacre::scene {
+
+/// Reads a scene file. Paths in it are relative to it; "gallery" is the built-in gallery. Angles are in degrees.
+/// Where the file has no lights (or cameras), those of its models are used.
+/// Throws SceneError with one sentence that names the file, the field and the value.
+Scene readSceneFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+} // namespace nacre::scene

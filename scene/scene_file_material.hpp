@@ -1,0 +1,12 @@
+// Materials and looks that a scene file gives to the surfaces of a model.
+#pragma once
+
+#include "scene/scene_file_object.hpp"
+
+namespace nacre::scene {
+
+/// Reads `material` (for all surfaces), `materials` (by the surface's name) and `surface` (looks) of a model's entry.
+/// A material is a preset's name, a material file relative to the scene file, a material in place, or null for none.
+void assignMaterials(const std::filesystem::path& sceneFile, SceneFileObject& object, Scene& model);
+
+} // namespace nacre::scene
