@@ -98,13 +98,14 @@ template <>
 constexpr auto keys<Fit> = std::tuple{Key{"series", &Fit::series},     Key{"technique", &Fit::technique},
                                       Key{"width", &Fit::width},       Key{"height", &Fit::height},
                                       Key{"variable", &Fit::variable}, Key{"unit", &Fit::unit},
-                                      Key{"line", &Fit::line},         Key{"quantity", &Fit::quantity},
+                                      Key{"quantity", &Fit::quantity}, Key{"line", &Fit::line},
                                       Key{"growth", &Fit::growth},     Key{"noise", &Fit::noise},
                                       Key{"flat", &Fit::flat}};
 template <>
-constexpr auto keys<ImagePair> = std::tuple{Key{"title", &ImagePair::title}, Key{"before", &ImagePair::before},
-                                            Key{"beforeFile", &ImagePair::beforeFile}, Key{"after", &ImagePair::after},
-                                            Key{"afterFile", &ImagePair::afterFile}};
+constexpr auto keys<ImagePair> =
+    std::tuple{Key{"series", &ImagePair::series}, Key{"title", &ImagePair::title},
+               Key{"before", &ImagePair::before}, Key{"beforeFile", &ImagePair::beforeFile},
+               Key{"after", &ImagePair::after},   Key{"afterFile", &ImagePair::afterFile}};
 template <>
 constexpr auto keys<Results> = std::tuple{Key{"suite", &Results::suite},
                                           Key{"nacreVersion", &Results::nacreVersion},
@@ -302,6 +303,24 @@ Results readResults(std::string_view text) {
 }
 
 } // namespace
+
+const Summary* findTime(const Measurement& measurement, std::string_view quantity) {
+    if (quantity == "effect") {
+        return &measurement.effect;
+    }
+    if (quantity == "frame") {
+        return &measurement.frame;
+    }
+    if (quantity == "copy") {
+        return &measurement.copy;
+    }
+    for (const PassResult& pass : measurement.passes) {
+        if (pass.name == quantity) {
+            return &pass.time;
+        }
+    }
+    return nullptr;
+}
 
 std::string formatResults(const Results& results) {
     try {

@@ -103,6 +103,9 @@ struct Measurement {
     bool operator==(const Measurement&) const = default;
 };
 
+/// The time called "effect", "frame", "copy" or like a pass; null when there is none.
+const Summary* findTime(const Measurement& measurement, std::string_view quantity);
+
 /// One configuration measured twice, as if it were two.
 struct NoiseFloor {
     std::string id; ///< of the measurement
@@ -122,17 +125,18 @@ struct Fit {
     std::uint32_t height = 0;
     std::string variable;
     std::string unit;
-    Line line; ///< µs of the effect (or of the frame: `quantity`) per unit of the variable
-    std::string quantity = "effect";
-    double growth = 1; ///< time at the largest value / time at the smallest
-    double noise = 0;
-    bool flat = false; ///< isFlat
+    std::string quantity; ///< whose time: "effect", "frame" or a pass's name
+    Line line;            ///< µs per unit of the variable
+    double growth = 1;    ///< time at the largest value / time at the smallest
+    double noise = 0;     ///< largest of the series
+    bool flat = false;    ///< isFlat
 
     bool operator==(const Fit&) const = default;
 };
 
 /// Two pictures of the same view, files beside results.json.
 struct ImagePair {
+    std::string series; ///< what they belong to
     std::string title;
     std::string before;
     std::string beforeFile;

@@ -67,7 +67,7 @@ Results sample() {
         .noiseFloors = {{"id", "experiment 2", times(100), times(101), 0.01}},
         .measurements = {},
         .fits = {},
-        .images = {{"Figure 4.4", "effect off", "off.png", "effect on", "on.png"}}};
+        .images = {{"experiment 2", "Figure 4.4", "effect off", "off.png", "effect on", "on.png"}}};
     for (const double radius : {3.0, 5.0, 7.0}) {
         results.measurements.push_back(measurement(radius, 100 * radius));
     }
@@ -79,6 +79,7 @@ Results sample() {
                             .height = 720,
                             .variable = "radius",
                             .unit = "texels",
+                            .quantity = "effect",
                             .line = line,
                             .growth = 7.0 / 3,
                             .noise = 0.02});

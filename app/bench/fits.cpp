@@ -1,0 +1,101 @@
+#include "app/bench/fits.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace nacre::bench {
+namespace {
+
+// Measurements that lie on one line.
+using Group = std::vector<const Measurement*>;
+
+auto groupKey(const Measurement& measurement) {
+    const bool overSizes = measurement.variable == resolutionVariable;
+    return std::tuple(measurement.series, measurement.view, measurement.technique, overSizes ? 0 : measurement.width,
+                      overSizes ? 0 : measurement.height);
+}
+
+std::vector<Group> groupsOf(const std::vector<Measurement>& measurements) {
+    std::vector<Group> groups;
+    for (const Measurement& measurement : measurements) {
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& candidate) {
+            return groupKey(*candidate.front()) == groupKey(measurement);
+        });
+        (group == groups.end() ? groups.emplace_back() : *group).push_back(&measurement);
+    }
+    return groups;
+}
+
+// The quantities that every measurement of the group has.
+std::vector<std::string> quantitiesOf(const Group& group) {
+    std::vector<std::string> quantities{"effect", "frame"};
+    for (const PassResult& pass : group.front()->passes) {
+        const bool everywhere = std::all_of(group.begin(), group.end(), [&](const Measurement* measurement) {
+            return findTime(*measurement, pass.name) != nullptr;
+        });
+        if (everywhere) {
+            quantities.push_back(pass.name);
+        }
+    }
+    return quantities;
+}
+
+Fit fit(const Group& group, const std::string& quantity) {
+    std::vector<double> x;
+    std::vector<double> y;
+    double noise = 0;
+    for (const Measurement* measurement : group) {
+        x.push_back(measurement->value);
+        y.push_back(findTime(*measurement, quantity)->median);
+        noise = std::max(noise, measurement->noise);
+    }
+    const auto [first, last] = std::minmax_element(x.begin(), x.end());
+    const double start = y[static_cast<std::size_t>(first - x.begin())];
+    const double end = y[static_cast<std::size_t>(last - x.begin())];
+    const Line line = fitLine(x, y);
+    const Measurement& any = *group.front();
+    const bool overSizes = any.variable == resolutionVariable;
+    return {.series = any.series,
+            .technique = any.technique,
+            .width = overSizes ? 0 : any.width,
+            .height = overSizes ? 0 : any.height,
+            .variable = any.variable,
+            .unit = any.unit,
+            .quantity = quantity,
+            .line = line,
+            .growth = start > 0 ? end / start : 1,
+            .noise = noise,
+            .flat = isFlat(line, start, *last - *first, noise)};
+}
+
+} // namespace
+
+std::vector<Fit> fitSeries(const std::vector<Measurement>& measurements) {
+    std::vector<Fit> fits;
+    for (const Group& group : groupsOf(measurements)) {
+        std::set<double> values;
+        for (const Measurement* measurement : group) {
+            values.insert(measurement->value);
+        }
+        if (values.size() < 3) {
+            continue;
+        }
+        for (const std::string& quantity : quantitiesOf(group)) {
+            fits.push_back(fit(group, quantity));
+        }
+    }
+    return fits;
+}
+
+std::vector<const Fit*> fitsOf(const Results& results, std::string_view series, std::string_view quantity) {
+    std::vector<const Fit*> fits;
+    for (const Fit& candidate : results.fits) {
+        if (candidate.series == series && candidate.quantity == quantity) {
+            fits.push_back(&candidate);
+        }
+    }
+    return fits;
+}
+
+} // namespace nacre::bench

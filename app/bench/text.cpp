@@ -1,0 +1,119 @@
+#include "app/bench/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace nacre::bench {
+namespace {
+
+std::vector<std::string> distinct(const Results& results, std::string Measurement::*member) {
+    std::vector<std::string> values;
+    for (const Measurement& measurement : results.measurements) {
+        if (std::find(values.begin(), values.end(), measurement.*member) == values.end()) {
+            values.push_back(measurement.*member);
+        }
+    }
+    return values;
+}
+
+// "texels" → "texel"
+std::string singular(std::string unit) {
+    if (unit.size() > 1 && unit.back() == 's') {
+        unit.pop_back();
+    }
+    return unit;
+}
+
+} // namespace
+
+std::string formatNumber(double value, int digits) {
+    if (value == 0 || !std::isfinite(value)) {
+        return value == 0 ? "0" : "∞";
+    }
+    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    const int decimals = std::clamp(digits - 1 - magnitude, 0, 12);
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    std::string result = text;
+    if (decimals > 0) {
+        result.erase(result.find_last_not_of('0') + 1);
+        if (result.back() == '.') {
+            result.pop_back();
+        }
+    }
+    return result == "-0" ? "0" : result;
+}
+
+std::string formatTime(double microseconds) {
+    return std::abs(microseconds) < 10'000 ? formatNumber(microseconds) + " µs"
+                                           : formatNumber(microseconds / 1000) + " ms";
+}
+
+std::string formatShare(double share) {
+    return formatNumber(100 * share, 2) + " %";
+}
+
+std::string formatCount(std::uint64_t count) {
+    std::string text = std::to_string(count);
+    for (std::size_t position = text.size(); position > 3;) {
+        position -= 3;
+        text.insert(position, 1, ',');
+    }
+    return text;
+}
+
+std::string formatSize(std::uint32_t width, std::uint32_t height) {
+    return width == 0 ? "" : std::to_string(width) + "x" + std::to_string(height);
+}
+
+std::string formatSlope(const Fit& fit) {
+    const double margin = (fit.line.slopeHigh - fit.line.slopeLow) / 2;
+    const std::string per = " per " + (fit.unit.empty() ? singular(fit.variable) : singular(fit.unit));
+    const bool milliseconds = std::max(std::abs(fit.line.slope), margin) >= 10'000;
+    const double factor = milliseconds ? 1e-3 : 1;
+    return formatNumber(factor * fit.line.slope) + " ± " + formatNumber(factor * margin, 2) +
+           (milliseconds ? " ms" : " µs") + per;
+}
+
+std::string join(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        text += i == 0 ? "" : i + 1 == words.size() ? " and " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+std::string escapeHtml(std::string_view text) {
+    std::string escaped;
+    for (const char character : text) {
+        switch (character) {
+        case '&':
+            escaped += "&amp;";
+            break;
+        case '<':
+            escaped += "&lt;";
+            break;
+        case '>':
+            escaped += "&gt;";
+            break;
+        case '"':
+            escaped += "&quot;";
+            break;
+        default:
+            escaped += character;
+        }
+    }
+    return escaped;
+}
+
+std::vector<std::string> seriesOf(const Results& results) {
+    return distinct(results, &Measurement::series);
+}
+
+std::vector<std::string> techniquesOf(const Results& results) {
+    return distinct(results, &Measurement::technique);
+}
+
+} // namespace nacre::bench

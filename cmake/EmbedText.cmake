@@ -1,0 +1,6 @@
+# Script: turns a text file (INPUT) into a C++ header (OUTPUT) with one constexpr std::string_view called SYMBOL.
+file(READ "${INPUT}" text)
+if(text MATCHES "\\)embedded\"")
+    message(FATAL_ERROR "${INPUT} has the mark that ends embedded text")
+endif()
+file(WRITE "${OUTPUT}" "#pragma once\n#include <string_view>\ninline constexpr std::string_view ${SYMBOL} = R\"embedded(${text})embedded\";\n")
