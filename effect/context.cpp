@@ -53,10 +53,8 @@ void openDevice(Device& device, const NacreContextInfo& info) {
     }
     VkPhysicalDeviceFeatures features{};
     device.vk.GetPhysicalDeviceFeatures(info.physicalDevice, &features);
-    if (!features.shaderStorageImageWriteWithoutFormat || !features.shaderSampledImageArrayDynamicIndexing) {
-        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device lacks the feature ",
-             features.shaderStorageImageWriteWithoutFormat ? "shaderSampledImageArrayDynamicIndexing"
-                                                           : "shaderStorageImageWriteWithoutFormat");
+    if (!features.shaderStorageImageWriteWithoutFormat) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device lacks the feature shaderStorageImageWriteWithoutFormat");
     }
     checkLimit(device.limits.maxPerStageDescriptorSampledImages, requirements.maxPerStageDescriptorSampledImages,
                "maxPerStageDescriptorSampledImages");

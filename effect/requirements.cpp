@@ -42,7 +42,6 @@ NacreResult nacreGetRequirements(NacreRequirements* requirements) {
     *requirements = {};
     requirements->apiVersion = VK_API_VERSION_1_2;
     requirements->features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
-    requirements->features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
     requirements->features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
     // The larger set layout (programs.cpp): transmit has the images, scatter the buffers.
     requirements->maxPerStageDescriptorSampledImages = 5 + maxShadowMaps;

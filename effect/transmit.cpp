@@ -73,7 +73,7 @@ void checkLight(const NacreLight& light, const std::string& field, std::uint32_t
     }
 }
 
-LightParameters parametersOf(const NacreLight& light, float metersPerUnit) {
+LightParameters parametersOf(const NacreLight& light, const NacreTransmitInfo& info, float metersPerUnit) {
     LightParameters parameters{};
     std::memcpy(&parameters.shadowClipFromWorld, light.shadowClipFromWorld, sizeof(parameters.shadowClipFromWorld));
     parameters.position = {light.position[0], light.position[1], light.position[2], light.range};
@@ -92,6 +92,10 @@ LightParameters parametersOf(const NacreLight& light, float metersPerUnit) {
     parameters.kind = static_cast<uint>(light.kind);
     parameters.shadowMap = light.shadowMap;
     parameters.shadowLayer = light.shadowLayer;
+    if (light.shadowMap != NACRE_NO_SHADOW_MAP) {
+        const VkExtent2D size = info.shadowMaps[light.shadowMap].extent;
+        parameters.shadowSize = {static_cast<float>(size.width), static_cast<float>(size.height)};
+    }
     return parameters;
 }
 
@@ -160,7 +164,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     // From here on nothing fails.
     std::memcpy(record.mappedParameters, &parameters, sizeof(parameters));
     for (std::uint32_t i = 0; i < info.lightCount; ++i) {
-        const LightParameters light = parametersOf(info.lights[i], parameters.view.mmPerUnit * 1e-3f);
+        const LightParameters light = parametersOf(info.lights[i], info, parameters.view.mmPerUnit * 1e-3f);
         std::memcpy(record.mappedLights + i * sizeof(light), &light, sizeof(light));
     }
     NacreImage noShadowMap{};

@@ -49,14 +49,16 @@ void writeUnscattered(ivec2 pixel) {
     imageStore(scatteredImage, pixel, vec4(light * albedo, 1.0));
 }
 
+// How much of a pixel's light scatters, [0, 1].
+float strengthAt(ivec2 pixel, uint material) {
+    float strength = materials[material].strength;
+    return hasFlag(flagStrength) ? strength * clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0) : strength;
+}
+
 // Writes a pixel of a material, given the light that leaves there before strength and albedo.
 void writeScattered(ivec2 pixel, uint material, vec3 leaving) {
-    float strength = materials[material].strength;
-    if (hasFlag(flagStrength)) {
-        strength *= clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0);
-    }
     vec3 entering = enteringLight(pixel, material);
-    vec3 light = isFinite(entering) ? mix(entering, leaving, strength) : leaving;
+    vec3 light = isFinite(entering) ? mix(entering, leaving, strengthAt(pixel, material)) : leaving;
     if (hasFlag(flagAlbedo)) {
         vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
         light *= materials[material].preAndPost != 0u ? sqrt(albedo) : albedo;

@@ -161,7 +161,7 @@ void main() {
     ivec2 pixel = local + view.areaOffset;
     uint material = materialAt(pixel);
     float z = viewZ(pixel);
-    if (material == 0u || !isValidZ(z)) {
+    if (material == 0u || !isValidZ(z) || strengthAt(pixel, material) == 0.0) {
         writeUnscattered(pixel);
         return;
     }

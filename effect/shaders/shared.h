@@ -141,7 +141,8 @@ struct LightParameters {
     uint kind;
     uint shadowMap; // NACRE_NO_SHADOW_MAP = none
     uint shadowLayer;
-    uint unused0, unused1, unused2;
+    uint unused0;
+    vec2 shadowSize; // texels
 };
 
 #ifdef __cplusplus
@@ -154,7 +155,7 @@ static_assert(offsetof(MaterialParameters, set) == 16 && sizeof(MaterialParamete
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
 static_assert(sizeof(BrutePixel) == 32);
 static_assert(sizeof(TransmitTable) == 16 * 128);
-static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 &&
+static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 && offsetof(LightParameters, shadowSize) == 136 &&
               sizeof(LightParameters) == 144);
 
 } // namespace nacre::effect

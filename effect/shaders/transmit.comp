@@ -97,7 +97,7 @@ vec3 cubeFace(vec3 direction, out uint face) {
 }
 
 ShadowPoint project(LightParameters light, vec3 position) {
-    vec2 size = vec2(textureSize(shadowMaps[light.shadowMap], 0).xy);
+    vec2 size = light.shadowSize;
     vec3 offset = position - light.position.xyz;
     ShadowPoint point;
     point.layer = light.shadowLayer;
@@ -123,6 +123,20 @@ ShadowPoint project(LightParameters light, vec3 position) {
     point.texelSize = max(2.0 * w / (scale.x * size.x), 2.0 * w / (scale.y * size.y));
     point.inside = w > 0.0 && all(lessThan(abs(coordinates), vec2(1.0)));
     return point;
+}
+
+// A shadow map's texel. Constant indices, because not every device indexes arrays of images dynamically; loops of one
+// turn instead of a switch, because software devices run every side of a branch but skip loops.
+float storedDepth(uint map, ivec3 texel) {
+    float value = 0.0;
+#define FETCH(index)                                                                                                   \
+    for (bool here = map == index; here; here = false) {                                                               \
+        value = texelFetch(shadowMaps[index], texel, 0).r;                                                             \
+    }
+    FETCH(0) FETCH(1) FETCH(2) FETCH(3) FETCH(4) FETCH(5) FETCH(6) FETCH(7)
+    FETCH(8) FETCH(9) FETCH(10) FETCH(11) FETCH(12) FETCH(13) FETCH(14) FETCH(15)
+#undef FETCH
+    return value;
 }
 
 // Slab transmittance of a profile at a thickness in mm.
@@ -153,7 +167,7 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
         offset = 0.0;
     }
     float removed = offset / max(cosine, leastCosine);
-    ivec2 last = textureSize(shadowMaps[light.shadowMap], 0).xy - 1;
+    ivec2 last = ivec2(light.shadowSize) - 1;
     float spacing = max(0.5 * parameters.filterRadius, 0.5);
     vec2 coordinates = inner.texel / spacing - 0.5;
     vec2 base = floor(coordinates);
@@ -163,8 +177,7 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
         ivec2 tap = ivec2(i & 3, i >> 2) - 1;
         vec2 weights = 2.0 - abs(vec2(tap) - fraction);
         ivec2 texel = clamp(ivec2((base + vec2(tap) + 0.5) * spacing), ivec2(0), last);
-        float stored =
-            texelFetch(shadowMaps[light.shadowMap], ivec3(texel, inner.layer), 0).r * light.direction.w;
+        float stored = storedDepth(light.shadowMap, ivec3(texel, inner.layer)) * light.direction.w;
         float thickness = bounded(receiver, max(inner.depth - stored + removed, 0.0) * view.mmPerUnit);
         sum += weights.x * weights.y / 16.0 * vec4(transmittance(receiver.material, thickness), thickness);
     }
