@@ -1,6 +1,7 @@
 #include "scene/gltf_subsurface.hpp"
 
 #include "nacre/burley.hpp"
+#include "nacre/media.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,10 +29,9 @@ double extinction(const GltfMedium& medium, int channel) {
 
 double denseMeanFreePath(const GltfMedium& medium, int channel) {
     const double albedo = std::clamp(static_cast<double>(medium.multiscatterColor[channel]), 0.0, 1.0);
-    const double alpha = singleScatterAlbedo(albedo, medium.anisotropy);
-    const double meanFreePath = 1 / (extinction(medium, channel) * (1 - alpha * medium.anisotropy));
-    const double shape = 1.9 - albedo + 3.5 * (albedo - 0.8) * (albedo - 0.8);
-    return clampLength(millimetresPerMetre * meanFreePath / shape);
+    const double alpha = singleScatteringAlbedo(albedo, medium.anisotropy);
+    const double meanFreePath = reducedMeanFreePath(1 / extinction(medium, channel), alpha, medium.anisotropy);
+    return clampLength(millimetresPerMetre * meanFreePath / burleyShape(albedo, BurleyEntry::Diffuse));
 }
 
 double absorbingMeanFreePath(const GltfMedium& medium, int channel) {
@@ -81,12 +81,6 @@ GltfMedium readMedium(const GltfFile& file, const tinygltf::ExtensionMap& extens
     }
     medium.anisotropy = std::clamp(medium.anisotropy, -0.99, 0.99); // ±1 are outside the phase function's range
     return medium;
-}
-
-double singleScatterAlbedo(double multiscatterAlbedo, double anisotropy) {
-    const double a = multiscatterAlbedo;
-    const double q = 4.09712 + 4.20863 * a - std::sqrt(9.59217 + 41.6808 * a + 17.7126 * a * a);
-    return std::clamp((1 - q * q) / (1 - anisotropy * q * q), 0.0, 1.0);
 }
 
 std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string& name) {

@@ -33,8 +33,4 @@ inline constexpr double thinWallThickness = 0.01;
 ///  - thin walls: translucency = the transmitted share, with a spread of 0.3 mm, a leaf's thickness, chosen by eye.
 std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string& name);
 
-/// Kulla and Conty 2017 ("Revisiting physically based shading at Imageworks"), as in KHR_materials_volume_scatter: the
-/// single-scattering albedo of a medium with the multiple-scattering albedo A [0, 1] and the anisotropy g (−1, 1).
-double singleScatterAlbedo(double multiscatterAlbedo, double anisotropy);
-
 } // namespace nacre::scene
