@@ -1,0 +1,67 @@
+// The scatter techniques on hard synthetic scenes: `brute` against the same sum in double precision on the CPU, and
+// `separable` against `brute`.
+#include "tests/gpu/support/effect.hpp"
+#include "tests/support/scatter_reference.hpp"
+
+#include <cmath>
+
+using namespace nacre;
+using namespace nacre::tests;
+
+namespace {
+
+ScatterInput toInput(const ScatterScene& scene) {
+    ScatterInput input;
+    input.extent = {static_cast<std::uint32_t>(scene.width), static_cast<std::uint32_t>(scene.height)};
+    input.view = makeView(Projection::perspective(scene.width, scene.height, scene.focalLength));
+    for (std::size_t i = 0; i < scene.depth.size(); ++i) {
+        const Rgb& light = scene.irradiance[i];
+        const Rgb& normal = scene.normal[i];
+        input.irradiance.push_back(
+            {static_cast<float>(light[0]), static_cast<float>(light[1]), static_cast<float>(light[2]), 1});
+        input.depth.push_back(static_cast<float>(scene.depth[i]));
+        input.materialId.push_back(scene.materialId[i]);
+        // The scene's axes are the image's: y down, z away.
+        input.normal.push_back(
+            {static_cast<float>(normal[0]), static_cast<float>(-normal[1]), static_cast<float>(-normal[2]), 0});
+    }
+    return input;
+}
+
+class QualityTest : public GpuTest, public testing::WithParamInterface<std::tuple<SceneKind, double>> {
+protected:
+    SceneSettings settings() const {
+        return {.kind = std::get<0>(GetParam()), .footprint = std::get<1>(GetParam()), .width = 192, .height = 108};
+    }
+};
+
+TEST_P(QualityTest, BruteAgreesWithDoublePrecision) {
+    const ScatterScene scene = makeScatterScene(settings());
+    const ScatterInput input = toInput(scene);
+    Effect effect(gpu, gpu.contextInfo(input.extent));
+    effect.setMaterials(scene.materials);
+    std::vector<Rgb> image;
+    for (const Float4& pixel : effect.scatter(input, NACRE_TECHNIQUE_BRUTE)) {
+        image.push_back({pixel[0], pixel[1], pixel[2]});
+    }
+    const double quality = psnr(scene, scatterReference(scene, 7), image);
+    std::cout << scene.name << " brute against double precision: " << quality << " dB\n";
+    EXPECT_GE(quality, 50);
+}
+
+TEST_P(QualityTest, SeparableAgainstBrute) {
+    const ScatterScene scene = makeScatterScene(settings());
+    const ScatterInput input = toInput(scene);
+    Effect effect(gpu, gpu.contextInfo(input.extent));
+    effect.setMaterials(scene.materials);
+    const std::vector<Float4> brute = effect.scatter(input, NACRE_TECHNIQUE_BRUTE);
+    const std::vector<Float4> separable = effect.scatter(input, NACRE_TECHNIQUE_SEPARABLE);
+    const double quality = psnr(separable, brute, input.materialId);
+    std::cout << scene.name << " separable against brute: " << quality << " dB\n";
+    EXPECT_GE(quality, 38);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, QualityTest,
+                         testing::Combine(testing::ValuesIn(allSceneKinds), testing::Values(4.0, 20.0, 60.0)));
+
+} // namespace
