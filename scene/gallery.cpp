@@ -20,6 +20,12 @@ constexpr std::size_t totalTriangles = 436508; // the thesis's scene, its table 
 constexpr float millimetre = 0.001f;
 constexpr float plinthHeight = 0.06f, potHeight = 0.066f;
 
+/// An albedo texture and how it lies on a body.
+struct Painting {
+    glm::vec2 (*coordinates)(const glm::vec3& p) = nullptr;
+    Texture (*make)() = nullptr;
+};
+
 /// A body, what it is made of and where it stands.
 struct Exhibit {
     const char* name;
@@ -31,14 +37,20 @@ struct Exhibit {
     float roll;            ///< [deg] about +Z, before
     glm::vec3 color;
     float roughness;
+    float thickness = -1; ///< [mm] as Surface::thickness
+    Painting painting;
 };
 
+constexpr Painting skin{gallery::headTextureCoordinates, gallery::makeSkinTexture};
+constexpr Painting flames{gallery::shellTextureCoordinates, gallery::makeShellTexture};
+constexpr glm::vec3 white{1}, jade{0.42f, 0.66f, 0.44f}, marble{0.86f, 0.84f, 0.80f}, green{0.22f, 0.46f, 0.10f};
+
 constexpr std::array<Exhibit, 5> exhibits{{
-    {"head", "skin", gallery::makeHead, 120000, {-0.17f, 0, -0.02f}, 16, 0, {0.72f, 0.50f, 0.41f}, 0.42f},
-    {"dragon", "jade", gallery::makeDragon, 150000, {0.29f, 0, -0.05f}, -14, 0, {0.42f, 0.66f, 0.44f}, 0.22f},
-    {"logo", "marble", gallery::makeLogo, 24000, {0.10f, 0, 0.155f}, 0, 0, {0.86f, 0.84f, 0.80f}, 0.25f},
-    {"shell", "nacre", gallery::makeShell, 46000, {-0.41f, 0, 0.06f}, -28, -62, {0.88f, 0.80f, 0.74f}, 0.2f},
-    {"plant", "leaf", gallery::makePlant, 0, {0.055f, 0.86f * potHeight, -0.12f}, 0, 0, {0.22f, 0.46f, 0.10f}, 0.38f},
+    {"head", "skin", gallery::makeHead, 120000, {-0.165f, 0, -0.02f}, 16, 0, white, 0.42f, -1, skin},
+    {"dragon", "jade", gallery::makeDragon, 150000, {0.27f, 0, -0.05f}, -14, 0, jade, 0.22f, -1, {}},
+    {"logo", "marble", gallery::makeLogo, 24000, {0.055f, 0, 0.185f}, 0, 0, marble, 0.25f, -1, {}},
+    {"shell", "nacre", gallery::makeShell, 46000, {-0.365f, 0, 0.08f}, -28, -62, white, 0.2f, -1, flames},
+    {"plant", "leaf", gallery::makePlant, 0, {0.05f, 0.86f * potHeight, -0.12f}, 0, 0, green, 0.38f, 0.4f, {}},
 }};
 
 std::uint32_t addSurface(Scene& scene, const std::string& name, const glm::vec3& color, float roughness) {
@@ -69,13 +81,15 @@ void addStage(Scene& scene) {
     addInstance(scene, gallery::makePot(potHeight), clay, glm::translate(identity, pot));
 }
 
-Mesh toMesh(const char* name, Body&& body) {
+Mesh toMesh(const Exhibit& exhibit, Body&& body) {
     Mesh mesh;
-    mesh.name = name;
+    mesh.name = exhibit.name;
     mesh.vertices.reserve(body.solid.positions.size());
-    for (std::size_t i = 0; i < body.solid.positions.size(); ++i)
-        mesh.vertices.push_back({millimetre * body.solid.positions[i], body.normals[i],
-                                 gallery::anyTangent(body.normals[i]), glm::vec2(0)});
+    for (std::size_t i = 0; i < body.solid.positions.size(); ++i) {
+        const glm::vec3 position = body.solid.positions[i], normal = body.normals[i];
+        const glm::vec2 uv = exhibit.painting.coordinates ? exhibit.painting.coordinates(position) : glm::vec2(0);
+        mesh.vertices.push_back({millimetre * position, normal, gallery::anyTangent(normal), uv});
+    }
     mesh.indices = std::move(body.solid.indices);
     return mesh;
 }
@@ -90,6 +104,21 @@ glm::mat4 standing(const Exhibit& exhibit, const Mesh& mesh) {
     return glm::translate(glm::mat4(1), exhibit.place - glm::vec3(0, lowest, 0)) * turn;
 }
 
+std::uint32_t addSurfaceOf(Scene& scene, const Exhibit& exhibit) {
+    const Material* preset = findPreset(exhibit.preset);
+    if (!preset)
+        throw SceneError(std::string("the gallery's ") + exhibit.name + " needs the preset '" + exhibit.preset + "'");
+    const std::uint32_t surface = addSurface(scene, exhibit.name, exhibit.color, exhibit.roughness);
+    scene.surfaces[surface].thickness = exhibit.thickness;
+    scene.surfaces[surface].material = std::uint32_t(scene.materials.size());
+    scene.materials.push_back(*preset);
+    if (exhibit.painting.make) {
+        scene.surfaces[surface].baseColorTexture = std::uint32_t(scene.textures.size());
+        scene.textures.push_back(exhibit.painting.make());
+    }
+    return surface;
+}
+
 void addExhibits(Scene& scene) {
     std::size_t left = totalTriangles - triangleCount(scene);
     for (const Exhibit& exhibit : exhibits)
@@ -99,16 +128,9 @@ void addExhibits(Scene& scene) {
         bodies[i] =
             std::async(std::launch::async, exhibits[i].make, exhibits[i].triangles ? exhibits[i].triangles : left);
     for (std::size_t i = 0; i < exhibits.size(); ++i) {
-        const Exhibit& exhibit = exhibits[i];
-        const Material* preset = findPreset(exhibit.preset);
-        if (!preset)
-            throw SceneError(std::string("the gallery's ") + exhibit.name + " needs the preset '" + exhibit.preset +
-                             "'");
-        const std::uint32_t surface = addSurface(scene, exhibit.name, exhibit.color, exhibit.roughness);
-        scene.surfaces[surface].material = std::uint32_t(scene.materials.size());
-        scene.materials.push_back(*preset);
-        Mesh mesh = toMesh(exhibit.name, bodies[i].get());
-        const glm::mat4 transform = standing(exhibit, mesh);
+        const std::uint32_t surface = addSurfaceOf(scene, exhibits[i]);
+        Mesh mesh = toMesh(exhibits[i], bodies[i].get());
+        const glm::mat4 transform = standing(exhibits[i], mesh);
         addInstance(scene, std::move(mesh), surface, transform);
     }
 }
@@ -155,8 +177,8 @@ Scene makeGallery(GalleryLight light) {
     Camera camera;
     camera.name = "gallery";
     camera.position = {0, 0.30f, 1.75f};
-    camera.target = {0, 0.125f, 0};
-    camera.verticalFieldOfView = 0.315f;
+    camera.target = {0, 0.135f, 0};
+    camera.verticalFieldOfView = 0.30f;
     scene.cameras.push_back(camera);
     scene.environment.zenith = {0.16f, 0.18f, 0.22f};
     scene.environment.horizon = {0.10f, 0.10f, 0.11f};

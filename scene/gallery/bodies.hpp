@@ -17,10 +17,21 @@ Body makeHead(std::size_t triangles);
 Body makeDragon(std::size_t triangles);
 /// The word NACRE, extruded and bevelled.
 Body makeLogo(std::size_t triangles);
-/// A nautilus shell with a wall of 2 mm.
+/// A nautilus shell with a wall of 2 mm, its axis along z.
 Body makeShell(std::size_t triangles);
 /// Broad leaves of 0.8 mm on stems.
 Body makePlant(std::size_t triangles);
+
+/// Texture coordinates of a point of the head [mm]: the direction from the middle of the head, azimuthal equidistant
+/// about +Z. Without a seam; stretched at the back of the head only.
+glm::vec2 headTextureCoordinates(const glm::vec3& p);
+/// The head's albedo: lips, cheeks, brows, lashes, a shaved scalp.
+Texture makeSkinTexture();
+
+/// Texture coordinates of a point of the shell [mm]: seen along its axis.
+glm::vec2 shellTextureCoordinates(const glm::vec3& p);
+/// The shell's albedo: mother-of-pearl with brown flames.
+Texture makeShellTexture();
 
 /// Polygonises on a grid of `cell` mm, comes to the number of triangles and takes the normals from the gradient.
 Body makeBody(const ImplicitSurface& surface, float cell, std::size_t triangles);

@@ -117,7 +117,7 @@ void addMembrane(ImplicitSurface& dragon, const glm::vec3& wrist, const glm::vec
         const float hem = (along - 1 + 0.16f * arch) * height;
         const float edge = -std::min(s * std::sqrt(determinant / vv), t * std::sqrt(determinant / uu));
         const float thickness = 1.05f + 0.25f * (1 - along);
-        return 0.8f * std::max({sheet - thickness, hem, edge - 1});
+        return 0.8f * smoothMaximum(smoothMaximum(hem, edge - 1, 2), sheet - thickness, 1.6f);
     });
 }
 
@@ -178,8 +178,8 @@ void embossScales(ImplicitSurface& dragon, const std::vector<TubePoint>& spine) 
         const glm::vec3 front = glm::normalize(glm::vec3(0, -0.35f, 1) - axis * (axis.z - 0.35f * axis.y));
         const float angle = arcTangent(glm::dot(offset, glm::cross(axis, front)), glm::dot(offset, front));
         const float belly = smoothStep(0.95f, 0.8f, std::abs(angle));
-        const float rowHeight = glm::mix(6.5f, 8.f, belly), row = position / rowHeight;
-        const float whole = std::floor(row), within = row - whole;
+
+        const float row = position / 7, whole = std::floor(row), within = row - whole;
         const float count = std::floor(2 * pi * radius / 8 + 0.5f);
         const float column = angle / (2 * pi) * count + 0.5f * (whole - 2 * std::floor(whole / 2));
         const float u = 2 * (column - std::floor(column)) - 1;
@@ -200,7 +200,7 @@ Body makeDragon(std::size_t triangles) {
     addHead(dragon);
     addCrest(dragon, back);
     bothSides([&](float side) { addWing(dragon, side); });
-    return makeBody(dragon, 1.1f, triangles);
+    return makeBody(dragon, 1.2f, triangles);
 }
 
 } // namespace nacre::scene::gallery

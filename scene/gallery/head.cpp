@@ -1,4 +1,5 @@
 #include "scene/gallery/bodies.hpp"
+#include "scene/gallery/noise.hpp"
 #include "scene/gallery/shapes.hpp"
 
 #include <array>
@@ -15,95 +16,117 @@ void addSkull(ImplicitSurface& head) {
     addEllipsoid(head, {0, 150, -8}, {74, 82, 97}, 0);
     addEllipsoid(head, {0, 160, 34}, {60, 50, 54}, 30);
     addEllipsoid(head, {0, 88, 26}, {59, 80, 60}, 25);
-    addEllipsoid(head, {0, 47, 74}, {31, 30, 24}, 16);
+    addEllipsoid(head, {0, 48, 72}, {33, 32, 26}, 18);
     bothSides([&](float side) {
         addTube(
             head,
-            std::array<TubePoint, 3>{{{{side * 57, 98, 2}, 17}, {{side * 50, 44, 10}, 18}, {{side * 13, 12, 72}, 15}}},
-            24);
-        addEllipsoid(head, {side * 45, 93, 60}, {19, 13, 20}, 22);
+            std::array<TubePoint, 3>{{{{side * 56, 98, 2}, 17}, {{side * 49, 44, 10}, 17}, {{side * 12, 13, 72}, 15}}},
+            26);
+        addEllipsoid(head, {side * 44, 93, 56}, {20, 12, 19}, 28);
         addTube(head,
                 std::array<TubePoint, 3>{
-                    {{{side * 10, 131, 83}, 8}, {{side * 30, 137, 78}, 7.5f}, {{side * 51, 131, 57}, 6}}},
-                16);
-        carveEllipsoid(head, {side * 80, 58, 66}, {22, 30, 30}, 24);
+                    {{{side * 9, 130, 82}, 8}, {{side * 30, 136.5f, 77}, 7.5f}, {{side * 50, 130, 54}, 5}}},
+                18);
+        carveEllipsoid(head, {side * 81, 58, 64}, {22, 32, 32}, 28);
     });
-    addEllipsoid(head, {0, 12, 76}, {17, 14, 15}, 16);
+    addEllipsoid(head, {0, 12, 76}, {16, 13, 15}, 16);
 }
 
 void addNeck(ImplicitSurface& head) {
-    addCapsule(head, {{0, 50, -22}, 52}, {{0, -100, -34}, 60}, 22);
+    addCapsule(head, {{0, 50, -24}, 50}, {{0, -110, -38}, 56}, 24);
     bothSides([&](float side) {
-        addTube(
-            head,
-            std::array<TubePoint, 3>{{{{side * 60, 74, -26}, 10}, {{side * 46, 10, 4}, 10}, {{side * 13, -70, 32}, 8}}},
-            14);
-        addCapsule(head, {{side * 30, 10, -55}, 26}, {{side * 70, -100, -50}, 34}, 26);
+        addTube(head,
+                smoothTube(
+                    std::array<TubePoint, 3>{
+                        {{{side * 60, 76, -28}, 9}, {{side * 46, 10, -2}, 10}, {{side * 12, -72, 26}, 8}}},
+                    4),
+                16);
+        addTube(head,
+                smoothTube(
+                    std::array<TubePoint, 3>{
+                        {{{side * 26, 30, -62}, 22}, {{side * 40, -30, -60}, 26}, {{side * 78, -92, -50}, 26}}},
+                    4),
+                26);
     });
-    addEllipsoid(head, {0, -6, 28}, {10, 15, 12}, 12);
-    head.carve(boundsOf({0, -130, -30}, {160, 55, 160}), 6, [](const glm::vec3& p) { return p.y + 78; });
+    addEllipsoid(head, {0, -112, -32}, {112, 56, 62}, 40);
+    addEllipsoid(head, {0, -4, 24}, {9, 15, 12}, 14);
+    head.carve(boundsOf({0, -130, -30}, {170, 60, 170}), 8, [](const glm::vec3& p) { return p.y + 74; });
 }
 
 void addNose(ImplicitSurface& head) {
     addTube(
         head,
         smoothTube(
-            std::array<TubePoint, 4>{{{{0, 128, 82}, 9}, {{0, 112, 91}, 7}, {{0, 96, 101}, 7}, {{0, 82, 109}, 8}}}, 4),
-        10);
-    addEllipsoid(head, {0, 77.5f, 111}, {9.5f, 8.5f, 9}, 6);
-    bothSides([&](float side) { addEllipsoid(head, {side * 12, 73.5f, 100}, {6.5f, 7, 9}, 5); });
-    addCapsule(head, {{0, 71, 111}, 3.5f}, {{0, 66, 98}, 4}, 5);
-    bothSides([&](float side) { carveEllipsoid(head, {side * 6.8f, 68.5f, 103}, {3.2f, 4, 6}, 2); });
+            std::array<TubePoint, 4>{{{{0, 128, 84}, 9}, {{0, 112, 88}, 8}, {{0, 96, 95}, 9.5f}, {{0, 83, 101}, 11}}},
+            4),
+        9);
+    addCapsule(head, {{0, 100, 78}, 15}, {{0, 76, 88}, 14}, 12);
+    addTube(head,
+            smoothTube(
+                std::array<TubePoint, 4>{
+                    {{{0, 118, 91}, 4}, {{0, 104, 97.5f}, 5.2f}, {{0, 93, 103}, 5.5f}, {{0, 82, 109}, 6.5f}}},
+                4),
+            6);
+    addEllipsoid(head, {0, 77.5f, 110.5f}, {8.8f, 8, 8.5f}, 6);
+    bothSides([&](float side) { addEllipsoid(head, {side * 12, 74, 99}, {6, 7, 10}, 5); });
+    addCapsule(head, {{0, 71, 110}, 3.2f}, {{0, 67, 97}, 4}, 5);
+    bothSides([&](float side) {
+        head.carve(boundsOf({side * 6.6f, 68, 102}, {4, 5, 7}), 2, [side](const glm::vec3& p) {
+            return ellipsoidDistance(p, {side * (6.8f - 0.12f * (p.z - 102)), 67.5f, 102}, {2.8f, 4, 5.5f});
+        });
+    });
 }
 
+/// Closed: the upper lid comes down over the lower one along the lash line; a crease above.
 void addEye(ImplicitSurface& head, float side) {
-    carveEllipsoid(head, {side * 33, 117, 93}, {19, 12, 15}, 12);
-    addSphere(head, {side * 32, 115, 73.5f}, 15, 5);
-    // Closed lids: the lash line with the upper lid over the lower one, and the crease above.
-    head.emboss(boundsOf({side * 32, 116, 84}, {24, 18, 16}), [side](const glm::vec3& p) {
+    carveEllipsoid(head, {side * 34, 117, 94}, {17, 11, 15}, 14);
+    addEllipsoid(head, {side * 32, 115, 73.5f}, {19, 14.5f, 15}, 7);
+    head.emboss(boundsOf({side * 32, 116, 84}, {26, 20, 18}), [side](const glm::vec3& p) {
         const float u = side * p.x - 32, v = p.y - 115, w = u / 17;
-        const float fade = bell(w * w * w * 0.8f) * smoothStep(74, 78, p.z);
-        const float lash = v + 6.5f - 6 * w * w + 1.2f * w, crease = v - 8.5f + 5.5f * w * w;
-        const float step = smoothStep(-0.8f, 0.8f, lash) * smoothStep(9, 1, lash);
-        return fade * (0.9f * step - 0.7f * bell((lash + 0.8f) / 1.0f) - 1.3f * bell(crease / 1.8f));
+        const float fade = bell(0.75f * w * w * w) * smoothStep(68, 76, p.z);
+        const float lash = v + 6.8f - 6 * w * w + 1.3f * w, crease = v - 8.5f + 5.5f * w * w;
+        const float step = smoothStep(-0.9f, 0.9f, lash) * smoothStep(10, 1, lash);
+        return fade * (1.0f * step - 0.6f * bell((lash + 0.9f) / 1.1f) - 1.1f * bell(crease / 2));
     });
 }
 
 void addMouth(ImplicitSurface& head) {
     bothSides([&](float side) {
         addTube(head,
-                smoothTube(std::array<TubePoint, 4>{{{{0, 51.5f, 98}, 4},
-                                                     {{side * 6, 52.8f, 98}, 4.2f},
-                                                     {{side * 15, 50, 93.5f}, 3.4f},
-                                                     {{side * 26, 45.5f, 84}, 1.5f}}},
+                smoothTube(std::array<TubePoint, 4>{{{{0, 51.2f, 96.4f}, 4},
+                                                     {{side * 5.5f, 52.2f, 96.4f}, 4.3f},
+                                                     {{side * 14, 49.8f, 92.5f}, 3.3f},
+                                                     {{side * 24, 46, 84}, 1.5f}}},
                            4),
-                4);
+                5);
         addTube(head,
-                smoothTube(std::array<TubePoint, 4>{{{{0, 41.5f, 97}, 5.2f},
-                                                     {{side * 9, 42, 96}, 5},
-                                                     {{side * 18, 44, 91}, 3.6f},
-                                                     {{side * 26, 45.5f, 84}, 1.5f}}},
+                smoothTube(std::array<TubePoint, 4>{{{{0, 41.2f, 95.8f}, 5.4f},
+                                                     {{side * 8, 42, 95}, 5.2f},
+                                                     {{side * 16, 43.8f, 90.5f}, 3.5f},
+                                                     {{side * 24, 46, 84}, 1.5f}}},
                            4),
-                4);
+                5);
     });
     bothSides([&](float side) {
-        head.carve(boundsOf({side * 14, 47, 95}, {16, 6, 14}), 2.2f,
-                   [tube = smoothTube(std::array<TubePoint, 4>{{{{0, 46.4f, 102}, 1},
-                                                                {{side * 8, 47.2f, 101}, 1},
-                                                                {{side * 17, 46.6f, 96}, 1},
-                                                                {{side * 27, 45, 86.5f}, 0.8f}}},
-                                      3)](const glm::vec3& p) {
-                       float nearest = 1e3f;
-                       for (std::size_t i = 0; i + 1 < tube.size(); ++i)
-                           nearest = std::min(nearest, taperedCapsuleDistance(p, tube[i].center, tube[i + 1].center,
-                                                                              tube[i].radius, tube[i + 1].radius));
-                       return nearest;
-                   });
+        const std::vector<TubePoint> parting = smoothTube(std::array<TubePoint, 4>{{{{0, 46.4f, 100.5f}, 0.8f},
+                                                                                    {{side * 7, 47.1f, 100}, 0.8f},
+                                                                                    {{side * 15, 46.6f, 96}, 0.8f},
+                                                                                    {{side * 25, 45.4f, 88}, 0.7f}}},
+                                                          3);
+        carveTube(head, parting, 3);
     });
-    head.emboss(boundsOf({0, 60, 98}, {14, 14, 20}), [](const glm::vec3& p) {
-        return -1.1f * bell(p.x / 2.8f) * smoothStep(54, 57, p.y) * smoothStep(68, 63, p.y) * smoothStep(84, 90, p.z);
+    // The groove below the nose, the folds beside the mouth, the hollow above the chin.
+    head.emboss(boundsOf({0, 61, 98}, {14, 14, 20}), [](const glm::vec3& p) {
+        return -1.0f * bell(p.x / 2.8f) * smoothStep(54, 58, p.y) * smoothStep(68, 63, p.y) * smoothStep(84, 90, p.z);
     });
-    carveEllipsoid(head, {0, 31, 103}, {17, 6, 9}, 9);
+    bothSides([&](float side) {
+        head.emboss(boundsOf({side * 28, 58, 86}, {20, 22, 26}), [side](const glm::vec3& p) {
+            const float x = side * p.x, fold = x - 30 + 0.55f * (p.y - 48);
+            return 0.4f * (bell((fold - 4) / 4) - bell(fold / 2.2f)) * bell((p.y - 60) / 13) * smoothStep(66, 74, p.z) *
+                   smoothStep(48, 42, x);
+        });
+    });
+    carveEllipsoid(head, {0, 31.5f, 104}, {17, 5.5f, 9}, 10);
 }
 
 /// Ear coordinates: x backward along the ear's sheet, y up, z out of it.
@@ -142,7 +165,7 @@ void addEar(ImplicitSurface& head, float side) {
         const float hollow =
             2.5f - 9 * bell((q.x - 9) / 9) * bell((q.y + 5) / 12) - 2.5f * bell((q.x - 22) / 6) * bell((q.y - 8) / 16);
         const float sheet = std::abs(q.z - hollow) - 1.3f;
-        return 0.85f * std::max(outline, sheet);
+        return 0.85f * smoothMaximum(outline, sheet, 2);
     });
     tube({{{6, -2, 0}, 2.2f},
           {{2, 6, 3}, 2.6f},
@@ -174,6 +197,9 @@ Body makeHead(std::size_t triangles) {
     bothSides([&](float side) { addEye(head, side); });
     addMouth(head);
     bothSides([&](float side) { addEar(head, side); });
+    // Skin is not quite even.
+    head.emboss(boundsOf({0, 80, 0}, {110, 160, 130}),
+                [](const glm::vec3& p) { return 0.09f * noise(p / 8.f) + 0.05f * noise(p / 3.2f + glm::vec3(17)); });
     return makeBody(head, 1.25f, triangles);
 }
 

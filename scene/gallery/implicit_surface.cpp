@@ -1,5 +1,7 @@
 #include "scene/gallery/implicit_surface.hpp"
 
+#include "scene/gallery/shapes.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -9,23 +11,32 @@ namespace {
 
 constexpr float farAway = 1e3f;
 
-float smoothMinimum(float a, float b, float blend) {
-    const float h = std::max(blend - std::abs(a - b), 0.f);
-    return std::min(a, b) - (blend > 0 ? 0.25f * h * h / blend : 0.f);
-}
-
 bool contains(const Bounds& b, const glm::vec3& p) {
     return p.x >= b.low.x && p.y >= b.low.y && p.z >= b.low.z && p.x <= b.high.x && p.y <= b.high.y && p.z <= b.high.z;
+}
+
+Bounds grown(const Bounds& b, float margin) {
+    return {b.low - margin, b.high + margin};
+}
+
+bool overlap(const Bounds& a, const Bounds& b) {
+    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
 }
 
 } // namespace
 
 void ImplicitSurface::combine(Combination combination, Bounds bounds, float blend, Distance shape) {
+    // A smooth joint swells both shapes, so the earlier one must be known as far from its bounds as the later one. The
+    // distances are estimates: a third more.
     const float margin = combination == Combination::Emboss ? 0.f : 1.3f * blend + 3;
-    bounds.low -= margin;
-    bounds.high += margin;
+    const Bounds reach = grown(bounds, margin);
+    for (Term& earlier : terms_)
+        if (overlap(earlier.bounds, reach) && margin > earlier.margin && earlier.combination != Combination::Emboss) {
+            earlier.margin = margin;
+            earlier.reach = grown(earlier.bounds, margin);
+        }
     all_.push_back(std::uint32_t(terms_.size()));
-    terms_.push_back({combination, bounds, blend, std::move(shape)});
+    terms_.push_back({combination, bounds, reach, margin, blend, std::move(shape)});
 }
 
 float ImplicitSurface::valueOf(const glm::vec3& p, const std::uint32_t* begin, const std::uint32_t* end) const {
@@ -39,7 +50,7 @@ float ImplicitSurface::valueOf(const glm::vec3& p, const std::uint32_t* begin, c
             value = smoothMinimum(value, term.shape(p), term.blend);
             break;
         case Combination::Carve:
-            value = -smoothMinimum(-value, term.shape(p), term.blend);
+            value = smoothMaximum(value, -term.shape(p), term.blend);
             break;
         case Combination::Emboss:
             value -= term.shape(p);
@@ -122,16 +133,16 @@ private:
         bool solid = false;
         for (const std::uint32_t t : surface_.all_) {
             const ImplicitSurface::Term& term = surface_.terms_[t];
-            if (glm::any(glm::greaterThan(term.reach.low, high)) || glm::any(glm::lessThan(term.reach.high, low)))
+            if (!overlap(term.reach, {low, high}))
                 continue;
             active_.push_back(t);
             solid |= term.combination == ImplicitSurface::Combination::Add;
         }
         if (!solid)
             return outside;
-        // The shapes' distances are estimates: twice the half diagonal is the margin for their error.
+        // The shapes' distances are estimates: one and a half times the half diagonal is the margin for their error.
         const float center = evaluate(0.5f * (low + high));
-        if (std::abs(center) > glm::length(high - low))
+        if (std::abs(center) > 0.75f * glm::length(high - low))
             return center > 0 ? outside : inside;
         blockOrigins_.push_back(corner);
         const std::size_t first = values_.size();

@@ -13,8 +13,7 @@ using Distance = std::function<float(const glm::vec3&)>;
 /// An ordered list of shapes, each combined with what came before it.
 class ImplicitSurface {
 public:
-    /// Joins a shape that lies within `bounds`; `blend` [≥ 0] mm is the width of the joint (polynomial smooth minimum,
-    /// Quilez, "smooth minimum", 2013: no effect where the two distances differ by more than `blend`).
+    /// Joins a shape that lies within `bounds`; the joint is rounded over `blend` [≥ 0] mm (smoothMinimum).
     void add(Bounds bounds, float blend, Distance shape) { combine(Combination::Add, bounds, blend, std::move(shape)); }
     /// Removes a shape, the edge rounded over `blend` mm.
     void carve(Bounds bounds, float blend, Distance shape) {
@@ -39,7 +38,9 @@ private:
     enum class Combination { Add, Carve, Emboss };
     struct Term {
         Combination combination;
-        Bounds reach; ///< outside of it the term has no effect near the surface
+        Bounds bounds;
+        Bounds reach; ///< the bounds and a margin: outside of it the term has no effect near the surface
+        float margin;
         float blend;
         Distance shape;
     };

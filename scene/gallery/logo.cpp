@@ -46,14 +46,15 @@ float letterC(const glm::vec2& p) {
 }
 
 float letterR(const glm::vec2& p) {
-    constexpr float w = strokeWidth, bowl = 19;
-    const glm::vec2 q = p - glm::vec2(27, capHeight - bowl);
-    const float ring = std::max(std::abs(glm::length(q) - (bowl - 0.5f * w)) - 0.5f * w, -q.x);
-    const float leg = clipped(barDistance(p, {23, 30}, {44.5f, -5}, w), 0, 28, p.y);
-    return std::min(
-        {barDistance(p, {0.5f * w, 0}, {0.5f * w, capHeight}, w), ring, leg,
-         barDistance(p, {w - 2, capHeight - 0.5f * w}, {27.5f, capHeight - 0.5f * w}, w),
-         barDistance(p, {w - 2, capHeight - 2 * bowl + 0.5f * w}, {27.5f, capHeight - 2 * bowl + 0.5f * w}, w)});
+    constexpr float w = strokeWidth, bowl = 19, straight = 27;
+    const glm::vec2 q = p - glm::vec2(straight, capHeight - bowl);
+    // A bowl is a straight part that ends in a half circle; the counter is a smaller one.
+    const auto bowlDistance = [&](float left, float radius) {
+        return q.x > 0 ? glm::length(q) - radius : std::max(std::abs(q.y) - radius, left - p.x);
+    };
+    const float ring = std::max(bowlDistance(0, bowl), -bowlDistance(w, bowl - w));
+    const float leg = clipped(barDistance(p, {19.5f, 36}, {44.5f, -5}, w), 0, 33, p.y);
+    return std::min({barDistance(p, {0.5f * w, 0}, {0.5f * w, capHeight}, w), ring, leg});
 }
 
 float letterE(const glm::vec2& p) {
@@ -67,12 +68,8 @@ float letterE(const glm::vec2& p) {
 /// Extrudes an outline along z with a chamfer of `bevel` mm whose edges are a little rounded.
 float extrude(float outline, float z) {
     const float side = std::abs(z) - halfDepth;
-    const auto roundedMaximum = [](float a, float b, float radius) {
-        const float h = std::max(radius - std::abs(a - b), 0.f);
-        return std::max(a, b) + 0.25f * h * h / radius;
-    };
     const float chamfer = 0.70710678f * (outline + side + bevel);
-    return roundedMaximum(roundedMaximum(outline, side, 0.8f), chamfer, 1.2f);
+    return smoothMaximum(smoothMaximum(outline, side, 0.8f), chamfer, 1.2f);
 }
 
 } // namespace

@@ -34,7 +34,7 @@ glm::vec2 sectionPoint(const Leaf& leaf, float along, float around) {
     // Side veins leave the midrib obliquely; they are raised below and sunken above.
     const float vein = 0.5f + 0.5f * cosine(2 * pi * (t * 11 - std::abs(x) * 2.2f));
     const float veins = 0.22f * vein * vein * vein * vein * smoothStep(1, 0.7f, std::abs(x));
-    const float thickness = glm::mix(stem, 0.42f + (1.1f * rib + veins) * (1 - 0.6f * t), blade);
+    const float thickness = glm::mix(stem, 0.2f + (1.1f * rib + veins) * (1 - 0.6f * t), blade);
     const float fold = blade * halfWidth * (0.28f * std::abs(x) - 0.12f * x * x) +
                        blade * 2.2f * x * x * sine(21 * t + 3 * leaf.heading + (x > 0 ? 1.5f : 0.f));
     // A flattened section keeps its full thickness almost to the margin.

@@ -42,12 +42,6 @@ void addCapsule(ImplicitSurface& surface, TubePoint a, TubePoint b, float blend)
                 [=](const glm::vec3& p) { return taperedCapsuleDistance(p, a.center, b.center, a.radius, b.radius); });
 }
 
-void carveCapsule(ImplicitSurface& surface, TubePoint a, TubePoint b, float blend) {
-    surface.carve(boundsOf({a.center, b.center}, std::max(a.radius, b.radius)), blend, [=](const glm::vec3& p) {
-        return taperedCapsuleDistance(p, a.center, b.center, a.radius, b.radius);
-    });
-}
-
 namespace {
 
 /// Some neighbouring capsules of a tube and the sphere they lie in.
@@ -85,15 +79,25 @@ float tubeDistance(const glm::vec3& p, std::span<const TubeChunk> chunks) {
     return nearest;
 }
 
-} // namespace
-
-void addTube(ImplicitSurface& surface, std::span<const TubePoint> points, float blend) {
+Bounds boundsOf(std::span<const TubePoint> points) {
     Bounds bounds;
     for (const TubePoint& point : points) {
         bounds.low = glm::min(bounds.low, point.center - point.radius);
         bounds.high = glm::max(bounds.high, point.center + point.radius);
     }
-    surface.add(bounds, blend, [chunks = chunksOf(points)](const glm::vec3& p) { return tubeDistance(p, chunks); });
+    return bounds;
+}
+
+} // namespace
+
+void addTube(ImplicitSurface& surface, std::span<const TubePoint> points, float blend) {
+    surface.add(boundsOf(points), blend,
+                [chunks = chunksOf(points)](const glm::vec3& p) { return tubeDistance(p, chunks); });
+}
+
+void carveTube(ImplicitSurface& surface, std::span<const TubePoint> points, float blend) {
+    surface.carve(boundsOf(points), blend,
+                  [chunks = chunksOf(points)](const glm::vec3& p) { return tubeDistance(p, chunks); });
 }
 
 void addPlate(ImplicitSurface& surface, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float radius,

@@ -8,6 +8,17 @@
 
 namespace nacre::scene::gallery {
 
+/// The smaller of two distances, the crease between them rounded over `blend` mm (Quilez, "smooth minimum", 2013: the
+/// polynomial one, no effect where the two differ by more than `blend`).
+inline float smoothMinimum(float a, float b, float blend) {
+    const float h = std::max(blend - std::abs(a - b), 0.f);
+    return std::min(a, b) - (blend > 0 ? 0.25f * h * h / blend : 0.f);
+}
+
+inline float smoothMaximum(float a, float b, float blend) {
+    return -smoothMinimum(-a, -b, blend);
+}
+
 inline float sphereDistance(const glm::vec3& p, const glm::vec3& center, float radius) {
     return glm::length(p - center) - radius;
 }
@@ -74,9 +85,9 @@ void addSphere(ImplicitSurface& surface, const glm::vec3& center, float radius, 
 void addEllipsoid(ImplicitSurface& surface, const glm::vec3& center, const glm::vec3& radii, float blend);
 void carveEllipsoid(ImplicitSurface& surface, const glm::vec3& center, const glm::vec3& radii, float blend);
 void addCapsule(ImplicitSurface& surface, TubePoint a, TubePoint b, float blend);
-void carveCapsule(ImplicitSurface& surface, TubePoint a, TubePoint b, float blend);
 /// A chain of capsules as one shape.
 void addTube(ImplicitSurface& surface, std::span<const TubePoint> points, float blend);
+void carveTube(ImplicitSurface& surface, std::span<const TubePoint> points, float blend);
 void addPlate(ImplicitSurface& surface, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float radius,
               float blend);
 

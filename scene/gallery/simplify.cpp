@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 /// Weight of the squared edge length against the squared distance: evens the triangles out where all is flat.
 constexpr double lengthWeight = 5e-5;
+/// A collapse is done when its turn comes unless it has become this much dearer since it was queued.
+constexpr double patience = 1.15;
 
 /// Area-weighted sum of squared distances to planes.
 struct Quadric {
@@ -73,10 +75,11 @@ public:
         while (triangles_ > target && !queue_.empty()) {
             const Collapse turn = queue_.top();
             queue_.pop();
+            const double limit = patience * turn.cost;
             Collapse best = cheapest(turn.vertex, false);
-            if (best.cost <= turn.cost && !allowed(best.vertex, best.target))
+            if (best.cost <= limit && !allowed(best.vertex, best.target))
                 best = cheapest(turn.vertex, true);
-            queued_[turn.vertex] = best.target != nobody && best.cost > turn.cost;
+            queued_[turn.vertex] = best.target != nobody && best.cost > limit;
             if (queued_[turn.vertex])
                 queue_.push(best);
             else if (best.target != nobody)
