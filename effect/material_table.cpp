@@ -126,6 +126,18 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
             }
         }
     }
+    findSeparate();
+}
+
+void MaterialTable::findSeparate() {
+    std::uint32_t common = 0xffffffffu;
+    for (std::uint32_t id = 1; id <= maxMaterial_; ++id) {
+        MaterialParameters parameters;
+        std::memcpy(&parameters, current_.data() + sections_.back().offset + sections_.back().stride * id,
+                    sizeof(parameters));
+        common &= parameters.set != 0 ? parameters.exchangeGroups : 0xffffffffu;
+    }
+    haveSeparate_ = common == 0;
 }
 
 void MaterialTable::update(std::uint32_t index) {
@@ -138,6 +150,7 @@ void MaterialTable::update(std::uint32_t index) {
         frame.isChanged[id] = false;
     }
     frame.changed.clear();
+    frame.haveSeparate = haveSeparate_;
 }
 
 VkDescriptorBufferInfo MaterialTable::range(std::uint32_t frame, const Section& section) const {

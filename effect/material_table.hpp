@@ -25,6 +25,8 @@ public:
         return range(frame, sections_[technique]);
     }
     std::uint32_t maxMaterial() const { return maxMaterial_; }
+    /// Whether, in this frame, some materials may not exchange light: no exchange group holds them all.
+    bool haveSeparate(std::uint32_t frame) const { return frames_[frame].haveSeparate; }
 
 private:
     /// One array in the buffer: `stride` bytes a material.
@@ -36,11 +38,14 @@ private:
         Buffer buffer;
         std::vector<std::uint32_t> changed; ///< ids, capacity for all
         std::vector<bool> isChanged;
+        bool haveSeparate = false;
     };
     VkDescriptorBufferInfo range(std::uint32_t frame, const Section& section) const;
+    void findSeparate();
 
     std::uint32_t maxMaterial_;
     std::array<Section, techniqueCount + 1> sections_; ///< one a technique, then MaterialParameters
+    bool haveSeparate_ = false;                        ///< as Frame::haveSeparate, for the next frame
     std::vector<std::byte> current_;                   ///< laid out as the frames' buffers
     std::vector<Frame> frames_;
 };

@@ -15,9 +15,13 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
              return VkExtent2D{1, 1};
          },
      .array = true},
+    {.name = "nacre bank raw pyramid", .bytes = bankRawBytes},
+    {.name = "nacre bank blurred pyramid", .bytes = bankBlurredBytes},
+    {.name = "nacre bank tiles", .bytes = bankTileBytes},
 }};
 
-const std::array<const Technique*, techniqueCount> techniques{&separableTechnique, &bruteTechnique, &transmitTechnique};
+const std::array<const Technique*, techniqueCount> techniques{&separableTechnique, &bruteTechnique, &bankTechnique,
+                                                              &transmitTechnique};
 
 IntermediateSet Technique::uses() const {
     IntermediateSet set = 0;

@@ -18,6 +18,9 @@ enum class Intermediate : std::uint32_t {
     Rows = intermediateRows,
     Pixels = intermediatePixels,
     NoShadowMap = intermediateNoShadowMap,
+    BankRaw = intermediateBankRaw,
+    BankBlurred = intermediateBankBlurred,
+    BankTiles = intermediateBankTiles,
     Count
 };
 inline constexpr std::size_t intermediateCount = static_cast<std::size_t>(Intermediate::Count);
@@ -52,6 +55,11 @@ struct Pass {
     VkDeviceSize indirectOffset = 0;
 };
 
+/// Sizes of the bank's buffers (scatter_bank.cpp).
+VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
+VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
+VkDeviceSize bankTileBytes(VkExtent2D maxExtent);
+
 /// A grid of one workgroup per width × height px.
 template <std::uint32_t width, std::uint32_t height> VkExtent3D tiles(VkExtent2D area) {
     return {(area.width + width - 1) / width, (area.height + height - 1) / height, 1};
@@ -73,10 +81,11 @@ struct Technique {
 
 extern const Technique separableTechnique; // scatter_separable.cpp
 extern const Technique bruteTechnique;     // scatter_brute.cpp
+extern const Technique bankTechnique;      // scatter_bank.cpp
 extern const Technique transmitTechnique;  // transmit.cpp
 
 /// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
-inline constexpr std::size_t scatterTechniqueCount = 2;
+inline constexpr std::size_t scatterTechniqueCount = 3;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;

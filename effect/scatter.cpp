@@ -3,6 +3,7 @@
 #include "validation.hpp"
 #include "view.hpp"
 
+#include <cmath>
 #include <cstring>
 
 namespace nacre::effect {
@@ -21,6 +22,14 @@ std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique techniq
 }
 
 namespace {
+
+/// A step of one pixel is rayX·z + originX, and proportional to clip w.
+float pixelWidth(const ViewParameters& view) {
+    const bool perspective = view.clipW.x != 0;
+    const vec2 x = perspective ? view.rayX : view.originX;
+    const vec2 y = perspective ? view.rayY : view.originY;
+    return std::sqrt(std::abs(x.x * y.y - x.y * y.x)) / std::abs(perspective ? view.clipW.x : view.clipW.y);
+}
 
 void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatterInfo& info) {
     constexpr const char* name = "NacreScatterInfo";
@@ -46,6 +55,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     view.normalScale = info.normalScale == 0 ? 1.0f : info.normalScale;
     view.normalBias = info.normalBias;
     view.maxMaterial = context.materials->maxMaterial();
+    view.flags |= context.materials->haveSeparate(info.frame) ? flagSeparateMaterials : 0u;
+    parameters.pixelWidth = pixelWidth(view);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
 
     // From here on nothing fails.

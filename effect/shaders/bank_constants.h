@@ -27,6 +27,8 @@ const float bankMissingDepth = 6.0f;
 // Area of surface per pixel, relative to one that faces the camera, is at most this. Without area weights: −0.5 dB,
 // −3 dB on spheres at 60 px.
 const float bankLargestArea = 8.0f;
+// Sums of weights are not divided by less than this: where every tap is on another surface the light fades out.
+const float bankLeastWeight = 1e-6f;
 // A tile of 32x32 px whose level 1, with two texels around, changes by less than this many texel widths in depth from
 // texel to texel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines").
 // 1.2 is a slope of 50 degrees; no tile of the twelve cases changes by more than 0.05 dB from this.

@@ -17,7 +17,6 @@ layout(set = 0, binding = bindingIntermediates + intermediatePixels, std430) rea
 // [px] Half width of the square whose cells are integrated. A Gaussian of 2 px, the narrowest whose values at pixel
 // centres may stand for its integrals (edge response within 0.25 %), has fallen to 8 % there.
 const int cellRadius = 4;
-const int cellCount = 2 * cellRadius + 1;
 const float pi = 3.14159265;
 
 struct Sum {
@@ -52,35 +51,31 @@ BrutePixel pixelAt(Receiver receiver, ivec2 offset) {
     return pixel;
 }
 
+// Mass of a Gaussian within the pixel at an offset along one axis; scale = pixel size / √(2·variance).
+float cellMass(int offset, float scale) {
+    return 0.5 * (errorFunction((float(offset) + 0.5) * scale) - errorFunction((float(offset) - 0.5) * scale));
+}
+
 // One Gaussian layer over the square's cells. On the tangent plane its integral over a cell is a product of error
 // functions; where the surface leaves the plane, or the pixel grid is skewed on it, the true distance corrects it.
 void addLayer(Receiver receiver, vec4 layer, inout Sum sum) {
     float variance = max(layer.w, 1e-8);
     vec2 stepLength = vec2(length(receiver.plane.x), length(receiver.plane.y));
     vec2 scale = stepLength * inversesqrt(2.0 * variance);
-    vec2 mass[cellCount];
-    vec2 before = vec2(errorFunction((-float(cellRadius) - 0.5) * scale.x),
-                       errorFunction((-float(cellRadius) - 0.5) * scale.y));
-    for (int i = 0; i < cellCount; ++i) {
-        float boundary = float(i - cellRadius) + 0.5;
-        vec2 after = vec2(errorFunction(boundary * scale.x), errorFunction(boundary * scale.y));
-        mass[i] = 0.5 * (after - before);
-        before = after;
-    }
-    for (int y = 0; y < cellCount; ++y) {
-        for (int x = 0; x < cellCount; ++x) {
-            float cellMass = mass[x].x * mass[y].y;
-            if (cellMass < 1e-9) {
-                continue;
-            }
-            ivec2 offset = ivec2(x, y) - cellRadius;
-            BrutePixel pixel = pixelAt(receiver, offset);
-            if (pixel.light.w > 0.0) {
+    for (int y = -cellRadius; y <= cellRadius; ++y) {
+        float rowMass = cellMass(y, scale.y);
+        if (rowMass < 1e-9) {
+            continue;
+        }
+        for (int x = -cellRadius; x <= cellRadius; ++x) {
+            BrutePixel pixel = pixelAt(receiver, ivec2(x, y));
+            float mass = rowMass * cellMass(x, scale.x);
+            if (pixel.light.w > 0.0 && mass > 1e-9) {
                 vec3 difference = pixel.position.xyz - receiver.position;
-                vec2 flatOffset = vec2(offset) * stepLength;
+                vec2 flatOffset = vec2(x, y) * stepLength;
                 float excess = dot(difference, difference) - dot(flatOffset, flatOffset);
                 float correction = exp(clamp(-excess / (2.0 * variance), -80.0, 4.0));
-                vec3 weight = layer.rgb * (cellMass * correction * pixel.light.w / (stepLength.x * stepLength.y));
+                vec3 weight = layer.rgb * (mass * correction * pixel.light.w / (stepLength.x * stepLength.y));
                 sum.light += weight * pixel.light.rgb;
                 sum.weight += weight;
             }

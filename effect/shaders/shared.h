@@ -52,6 +52,9 @@ NACRE_CONSTANT bindingIntermediates = 16; // + Intermediate
 NACRE_CONSTANT intermediateRows = 0;
 NACRE_CONSTANT intermediatePixels = 1;
 NACRE_CONSTANT intermediateNoShadowMap = 2;
+NACRE_CONSTANT intermediateBankRaw = 3;
+NACRE_CONSTANT intermediateBankBlurred = 4;
+NACRE_CONSTANT intermediateBankTiles = 5;
 
 NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
 
@@ -63,6 +66,7 @@ NACRE_CONSTANT flagThickness = 8u;
 NACRE_CONSTANT flagThicknessOut = 16u;
 NACRE_CONSTANT flagThesisTransmittance = 32u;
 NACRE_CONSTANT flagHardwareDepth = 64u;
+NACRE_CONSTANT flagSeparateMaterials = 128u; // some materials do not exchange light with some others
 
 // A camera. Lengths in mm, pixels are those of the whole image. A pixel's view-space position at view depth z is
 // (ray·z + origin, z) with ray = rayX·pixel.x + rayY·pixel.y + rayBias and origin alike (view.glsl).
@@ -86,6 +90,8 @@ struct ViewParameters {
 
 struct ScatterParameters {
     ViewParameters view;
+    float pixelWidth; // mm a pixel spans at clip w 1, geometric mean of x and y
+    float unused0, unused1, unused2;
 };
 
 struct TransmitParameters {
@@ -123,6 +129,16 @@ struct BrutePixel {
     vec4 position; // view space, mm; w: material id
 };
 
+// Mixture table of `bank` in 16-byte words: the bin offset (a float), then 24 half floats a bin (BankTable in
+// nacre/bank.hpp).
+NACRE_CONSTANT bankTableWords = 340;
+// Workgroups along x of the combination's dispatches; longer lists take several rows.
+NACRE_CONSTANT bankDispatchWidth = 32768;
+struct BankDispatch {
+    uint x, y, z; // VkDispatchIndirectCommand
+    uint count;   // tiles on the list
+};
+
 // Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0.
 NACRE_CONSTANT transmittanceEntries = 127;
 struct TransmitTable {
@@ -149,11 +165,12 @@ struct LightParameters {
 static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
               offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
               sizeof(ViewParameters) == 240);
-static_assert(sizeof(ScatterParameters) == 240);
+static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && sizeof(ScatterParameters) == 256);
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
 static_assert(offsetof(MaterialParameters, set) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
 static_assert(sizeof(BrutePixel) == 32);
+static_assert(sizeof(BankDispatch) == 16);
 static_assert(sizeof(TransmitTable) == 16 * 128);
 static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 && offsetof(LightParameters, shadowSize) == 136 &&
               sizeof(LightParameters) == 144);

@@ -218,11 +218,9 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
     }
     BlurredTexel result;
     result.depth = depth;
-    if (area > 0) {
-        result.mass = mass / counted;
-        for (int channel = 0; channel < 3; ++channel) {
-            result.light[channel] = light[channel] / area * result.mass;
-        }
+    result.mass = mass / std::max<double>(counted, constants::bankLeastWeight);
+    for (int channel = 0; channel < 3; ++channel) {
+        result.light[channel] = light[channel] / std::max<double>(area, constants::bankLeastWeight) * result.mass;
     }
     return result;
 }
@@ -392,12 +390,11 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         mass += tapWeight * tap.mass;
         total += tapWeight;
     }
-    if (total > 0) {
-        for (double& value : light) {
-            value /= total;
-        }
-        sum.add(weight, light, mass / total);
+    total = std::max<double>(total, constants::bankLeastWeight);
+    for (double& value : light) {
+        value /= total;
     }
+    sum.add(weight, light, mass / total);
 }
 
 } // namespace nacre::tests

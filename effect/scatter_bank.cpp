@@ -1,0 +1,106 @@
+// Technique `bank`: one pyramid of blurs for all materials; each pixel takes its material's mixture of them
+// (docs/scatter.md).
+#include "pass_table.hpp"
+
+#include "nacre/bank.hpp"
+
+#include "bank_blur.spv.h"
+#include "bank_combine_edge.spv.h"
+#include "bank_combine_smooth.spv.h"
+#include "bank_reduce.spv.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace nacre::effect {
+namespace {
+
+namespace constants {
+#include "shaders/bank_constants.h"
+} // namespace constants
+
+static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
+static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
+              constants::bankBinCount == BankTable::binCount);
+static_assert(BankTable::halvesPerBin == 24);
+
+constexpr std::size_t tableBytes = 16 * bankTableWords;
+static_assert(bankTableWords == 1 + 3 * constants::bankBinCount);
+
+constexpr std::uint32_t tileSize = 32;          // px, bank.glsl
+constexpr std::uint32_t blurSide = 16;          // texels, bank_blur.comp
+constexpr std::uint32_t rawTexelsPerTile = 341; // levels 1 … 5
+
+VkExtent2D tileCount(VkExtent2D area) {
+    return {(area.width + tileSize - 1) / tileSize, (area.height + tileSize - 1) / tileSize};
+}
+
+VkExtent2D levelExtent(VkExtent2D area, int level) {
+    const VkExtent2D tiles = tileCount(area);
+    return level < bankLevels ? VkExtent2D{tiles.width * (tileSize >> level), tiles.height * (tileSize >> level)}
+                              : VkExtent2D{(tiles.width + 1) / 2, (tiles.height + 1) / 2};
+}
+
+// One workgroup per 16x16 texels of any level, in rows of at most bankDispatchWidth.
+VkExtent3D blurGrid(VkExtent2D area) {
+    std::uint32_t count = 0;
+    for (int level = 1; level <= bankLevels; ++level) {
+        const VkExtent2D extent = levelExtent(area, level);
+        count += (extent.width + blurSide - 1) / blurSide * ((extent.height + blurSide - 1) / blurSide);
+    }
+    return {std::min<std::uint32_t>(count, bankDispatchWidth), (count + bankDispatchWidth - 1) / bankDispatchWidth, 1};
+}
+
+void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
+    const BankTable table(profile);
+    const float offset = table.binOffset();
+    std::memcpy(bytes.data(), &offset, sizeof(offset));
+    std::memcpy(bytes.data() + 16, table.halves().data(), table.halves().size_bytes());
+}
+
+constexpr IntermediateSet pyramids = bit(Intermediate::BankRaw) | bit(Intermediate::BankBlurred);
+constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
+
+constexpr Pass passes[] = {
+    {.name = "nacre bank reduce",
+     .spirv = bank_reduce_spv,
+     .writes = bit(Intermediate::BankRaw) | tiles,
+     .grid = nacre::effect::tiles<tileSize, tileSize>},
+    {.name = "nacre bank blur",
+     .spirv = bank_blur_spv,
+     .reads = bit(Intermediate::BankRaw),
+     .writes = bit(Intermediate::BankBlurred) | tiles,
+     .grid = blurGrid},
+    {.name = "nacre bank combine smooth",
+     .spirv = bank_combine_smooth_spv,
+     .reads = pyramids | tiles,
+     .indirect = Intermediate::BankTiles,
+     .indirectOffset = 0},
+    {.name = "nacre bank combine edge",
+     .spirv = bank_combine_edge_spv,
+     .reads = pyramids | tiles,
+     .indirect = Intermediate::BankTiles,
+     .indirectOffset = sizeof(BankDispatch)},
+};
+
+} // namespace
+
+VkDeviceSize bankRawBytes(VkExtent2D maxExtent) {
+    const VkExtent2D extent = tileCount(maxExtent);
+    return VkDeviceSize{sizeof(uvec4)} * rawTexelsPerTile * extent.width * extent.height;
+}
+
+VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
+    const VkExtent2D extent = levelExtent(maxExtent, bankLevels);
+    return bankRawBytes(maxExtent) + VkDeviceSize{sizeof(uvec4)} * extent.width * extent.height;
+}
+
+// The dispatches, then per tile a mark and its places on two lists.
+VkDeviceSize bankTileBytes(VkExtent2D maxExtent) {
+    const VkExtent2D extent = tileCount(maxExtent);
+    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 3 * extent.width * extent.height;
+}
+
+const Technique bankTechnique{"bank", passes, tableBytes, buildTable};
+
+} // namespace nacre::effect
