@@ -77,7 +77,7 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initiali
         const std::string reference = path.C_Str();
         const auto [entry, isNew] = textures_.try_emplace({reference, srgb}, none);
         if (isNew) {
-            const std::string field = file_.string() + ": material \"" + aiMaterial(material).GetName().C_Str() +
+            const std::string field = file_.string() + ": material \"" + material.GetName().C_Str() +
                                       "\": texture \"" + reference + "\"";
             scene_.textures.push_back(load(reference, field, srgb));
             entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
@@ -120,7 +120,7 @@ std::uint32_t AssimpMaterials::surface(unsigned index) {
     Surface surface;
     if (index < source_.mNumMaterials) {
         const aiMaterial& material = *source_.mMaterials[index];
-        surface.name = aiMaterial(material).GetName().C_Str();
+        surface.name = material.GetName().C_Str();
         surface.baseColorTexture = texture(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, true);
         surface.normalTexture = texture(material, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}, false);
         aiColor4D color(0.8f, 0.8f, 0.8f, 1);

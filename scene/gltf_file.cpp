@@ -218,6 +218,19 @@ void dropDracoIndices(Json& document) {
     }
 }
 
+/// tinygltf demands what glTF leaves out where the matrices are identities.
+void completeSkins(Json& document) {
+    const auto skins = document.find("skins");
+    if (skins == document.end() || !skins->is_array()) {
+        return;
+    }
+    for (Json& skin : *skins) {
+        if (skin.is_object() && !skin.contains("inverseBindMatrices")) {
+            skin["inverseBindMatrices"] = -1;
+        }
+    }
+}
+
 void parseModel(GltfFile& file, const Json& document) {
     const std::string text = document.dump();
     std::string error;
@@ -272,7 +285,8 @@ GltfKind gltfKind(std::span<const std::uint8_t> bytes) {
     }
     const Json& asset = json["asset"];
     const Json version = asset.is_object() ? asset.value("version", Json()) : Json();
-    return version.is_string() && version.get<std::string>().starts_with("1") ? GltfKind::Version1 : GltfKind::Version2;
+    const std::string text = version.is_string() ? version.get<std::string>() : version.dump();
+    return text.starts_with("1") ? GltfKind::Version1 : GltfKind::Version2;
 }
 
 Bytes readUri(const GltfFile& file, const std::string& uri, const std::string& field) {
@@ -317,6 +331,7 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
     }
     document.erase("animations");
     dropDracoIndices(document);
+    completeSkins(document);
     parseModel(file, document);
     decodeMeshoptViews(file);
     return file;
