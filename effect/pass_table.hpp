@@ -89,6 +89,6 @@ inline constexpr std::size_t scatterTechniqueCount = 3;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;
-inline constexpr NacreTechnique defaultTechnique = NACRE_TECHNIQUE_SEPARABLE;
+inline constexpr NacreTechnique defaultTechnique = NACRE_TECHNIQUE_BANK;
 
 } // namespace nacre::effect

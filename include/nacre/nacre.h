@@ -87,7 +87,7 @@ typedef enum NacreResult {
 
 /** How light is spread. */
 typedef enum NacreTechnique {
-    NACRE_TECHNIQUE_DEFAULT = 0,   /**< the library's choice */
+    NACRE_TECHNIQUE_DEFAULT = 0,   /**< the library's choice: NACRE_TECHNIQUE_BANK */
     NACRE_TECHNIQUE_SEPARABLE = 1, /**< two passes, line-spread kernels, world-space bilateral weights */
     NACRE_TECHNIQUE_BRUTE = 2,     /**< every pixel within the 99.9 % radius; slow, the reference of the others */
     NACRE_TECHNIQUE_BANK = 3,      /**< mixtures of one bank of blurs; flat in radius, layers and materials */
