@@ -97,6 +97,11 @@ std::string findFault(const vk::raii::PhysicalDevice& device) {
                " images at a time, and the G-buffer has " + std::to_string(neededColorAttachments);
     }
     const NacreRequirements needed = effectRequirements();
+    if (properties.limits.maxPerStageDescriptorSampledImages < needed.maxPerStageDescriptorSampledImages ||
+        properties.limits.maxPerStageDescriptorStorageImages < needed.maxPerStageDescriptorStorageImages ||
+        properties.limits.maxPerStageDescriptorStorageBuffers < needed.maxPerStageDescriptorStorageBuffers) {
+        return "a shader of it can read fewer images and buffers than the effect requires (see nacreGetRequirements)";
+    }
     const auto offered = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
                                              vk::PhysicalDeviceVulkan13Features>();
     if (!covers(flags(offered.get<vk::PhysicalDeviceFeatures2>().features), flags(needed.features)) ||
@@ -286,7 +291,9 @@ Device::Implementation::Implementation(const DeviceSettings& settings) : context
     limits = physicalDevice.getProperties().limits;
     memoryProperties = physicalDevice.getMemoryProperties();
     allocatedBytes.resize(memoryProperties.memoryHeapCount);
-    anisotropic = physicalDevice.getFeatures().samplerAnisotropy;
+    // A software device would spend most of the frame on anisotropic taps.
+    const bool software = physicalDevice.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+    anisotropic = physicalDevice.getFeatures().samplerAnisotropy && !software;
     queueFamily = findQueueFamily(physicalDevice).value();
     device = openDevice(physicalDevice, queueFamily, anisotropic);
     queue = vk::raii::Queue(device, queueFamily, 0);

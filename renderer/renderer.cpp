@@ -130,6 +130,7 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
     };
     const Compose::Settings look{settings.scatter, settings.transmit, exposure, settings.samples, settings.dither};
     const Subsurface::Frame frame{frameIndex, view, gbuffer, timer};
+    subsurface.beginFrame(frameIndex);
     timer.begin(commandBuffer);
     pass("shadow maps", [&] { shadowMaps.record(commandBuffer, scene); });
     pass("G-buffer", [&] { gbuffer.record(commandBuffer, scene, view); });

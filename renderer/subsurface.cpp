@@ -11,6 +11,8 @@ namespace {
 
 NacreTechnique convert(Technique technique) {
     switch (technique) {
+    case Technique::Bank:
+        return NACRE_TECHNIQUE_BANK;
     case Technique::Separable:
         return NACRE_TECHNIQUE_SEPARABLE;
     case Technique::Brute:
@@ -159,6 +161,11 @@ NacreView Subsurface::makeView(const View& view) const {
     result.depthEncoding = NACRE_DEPTH_LINEAR;
     result.metersPerUnit = info_.metersPerUnit;
     return result;
+}
+
+void Subsurface::beginFrame(std::uint32_t index) {
+    message_->clear();
+    check(nacreBeginFrame(context_.get(), index));
 }
 
 void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps) {

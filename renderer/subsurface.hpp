@@ -40,6 +40,8 @@ public:
         FrameTimer& timer;
     };
 
+    /// Before anything of frame `index` is recorded; its previous use must have finished.
+    void beginFrame(std::uint32_t index);
     void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps);
     void scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
                  Technique technique);
