@@ -5,7 +5,7 @@ cd "$(dirname "$0")"
 
 scripts/install-packages.sh
 cmake --preset release
-cmake --build --preset release --target nacre
+cmake --build --preset release --target nacre_app
 
 nacre=build/release/app/nacre
 mkdir -p out

@@ -25,6 +25,7 @@ template <typename Value> struct Named {
 
 constexpr std::array techniques{
     Named<Technique>{"default", Technique::Default},
+    Named<Technique>{"bank", Technique::Bank},
     Named<Technique>{"separable", Technique::Separable},
     Named<Technique>{"brute", Technique::Brute},
 };
@@ -38,6 +39,7 @@ constexpr std::array aovs{
 };
 
 constexpr double maxExposure = 32;
+constexpr std::uint32_t maxSamples = 4;
 constexpr std::uint32_t minShadowMapSize = 16;
 constexpr std::uint32_t maxShadowMapSize = 16384;
 
@@ -153,6 +155,10 @@ RenderOptionParser::RenderOptionParser(CLI::App& command) {
     add(picture, "-o,--output", options_.output,
         "FILE.png (sRGB) or FILE.exr (linear); default " + options_.output.string(), "FILE");
     add(picture, "--size", size_, "Pixels; default " + size_, "WxH");
+    add(picture, "--samples", options_.settings.samples,
+        "Samples per axis of a pixel, 1 to " + std::to_string(maxSamples) + "; AOVs have a pixel for each; default " +
+            std::to_string(options_.settings.samples),
+        "N");
     add(picture, "--exposure", exposure_, "Brighter (> 0) or darker (< 0) by powers of two", "EV");
     add(picture, "--material", options_.material, "Give every body this material: a preset or a material file",
         "NAME|FILE");
@@ -197,6 +203,8 @@ RenderOptions RenderOptionParser::finish() const {
     options.settings.technique = find(techniques, technique_, "technique");
     options.settings.scatter = !noScatter_;
     options.settings.transmit = !noTransmit_;
+    options.settings.dither = true;
+    requireRange(options.settings.samples, 1, maxSamples, "--samples");
     requireRange(options.settings.shadowMapSize, minShadowMapSize, maxShadowMapSize, "--shadow-map-size");
     if (options.output.extension() != ".png" && options.output.extension() != ".exr") {
         throw UsageError("--output '" + options.output.string() + "' ends neither in .png nor in .exr");

@@ -42,6 +42,7 @@ Json describe(const RenderOptions& options, const scene::Scene& scene, const sce
     const renderer::RenderSettings& settings = options.settings;
     return {{"width", settings.width},
             {"height", settings.height},
+            {"samples", settings.samples},
             {"technique", techniqueName(settings.technique)},
             {"scatter", settings.scatter},
             {"transmit", settings.transmit},

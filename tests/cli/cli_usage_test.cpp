@@ -41,6 +41,7 @@ const std::vector<WrongUsage> wrongUsages{
     {"SameFile", {"render", "-o", "a.exr", "--aov", "depth=a.exr"}, {"same file", "a.exr"}},
     {"SameFileDifferentlySpelt", {"render", "-o", "a.exr", "--aov", "depth=./a.exr"}, {"same file", "a.exr"}},
     {"OutputIsInput", {"render", "s.json", "--json", "s.json"}, {"same file", "s.json"}},
+    {"Samples", {"render", "--samples", "9"}, {"--samples 9"}},
     {"ShadowMapZero", {"render", "--shadow-map-size", "0"}, {"--shadow-map-size 0"}},
     {"ShadowMapHuge", {"render", "--shadow-map-size", "99999"}, {"--shadow-map-size 99999"}},
     {"ShadowMapWord", {"render", "--shadow-map-size", "big"}, {"--shadow-map-size", "big"}},
