@@ -37,6 +37,8 @@ const uint noShadowMap = 0xffffffffu;
 
 // [1] Least cosine between -normal and the light by which the receiver's offset is turned into thickness.
 const float leastCosine = 0.2;
+// [1] Longest step along the receiver's plane, over texel size, that taps follow.
+const float steepestPlane = 4.0;
 
 struct Receiver {
     vec3 position; // world space, scene units
@@ -51,11 +53,10 @@ struct Incidence {
     vec3 irradiance; // on a surface that faces the light
 };
 
-// Where a point falls in a shadow map: texel coordinates, layer, the point's linear depth and a texel's size there.
+// Where a point falls in a shadow map: texel coordinates, layer, and a texel's size there.
 struct ShadowPoint {
     vec2 texel;
     uint layer;
-    float depth;     // scene units
     float texelSize; // scene units
     bool inside;
 };
@@ -119,7 +120,6 @@ ShadowPoint project(LightParameters light, vec3 position) {
         scale = vec2(length(vec3(clip[0].x, clip[1].x, clip[2].x)), length(vec3(clip[0].y, clip[1].y, clip[2].y)));
     }
     point.texel = (coordinates * 0.5 + 0.5) * size;
-    point.depth = light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset);
     point.texelSize = max(2.0 * w / (scale.x * size.x), 2.0 * w / (scale.y * size.y));
     point.inside = w > 0.0 && all(lessThan(abs(coordinates), vec2(1.0)));
     return point;
@@ -152,6 +152,29 @@ vec3 transmittance(uint material, float thickness) {
                position - float(index));
 }
 
+// How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
+// are compared with the plane, not with the point, so that a slab is as thick under every tap.
+mat2x3 planeSteps(LightParameters light, Receiver receiver, ShadowPoint point) {
+    vec3 other = abs(receiver.normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 u = normalize(cross(receiver.normal, other)) * point.texelSize;
+    vec3 v = cross(receiver.normal, u);
+    ShadowPoint atU = project(light, receiver.position + u);
+    ShadowPoint atV = project(light, receiver.position + v);
+    mat2 texels = mat2(atU.texel - point.texel, atV.texel - point.texel);
+    if (atU.layer != point.layer || atV.layer != point.layer || abs(determinant(texels)) < 1e-6) {
+        return mat2x3(0.0);
+    }
+    mat2x3 steps = mat2x3(u, v) * inverse(texels);
+    float longest = max(length(steps[0]), length(steps[1]));
+    return steps * min(1.0, steepestPlane * point.texelSize / max(longest, 1e-20));
+}
+
+// A point's linear depth in the light's map, in scene units.
+float linearDepth(LightParameters light, vec3 position) {
+    vec3 offset = position - light.position.xyz;
+    return light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset);
+}
+
 float bounded(Receiver receiver, float thickness) {
     return receiver.authored > 0.0 ? min(thickness, receiver.authored) : thickness;
 }
@@ -171,6 +194,8 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     float spacing = max(0.5 * parameters.filterRadius, 0.5);
     vec2 coordinates = inner.texel / spacing - 0.5;
     vec2 base = floor(coordinates);
+    mat2x3 steps = planeSteps(light, receiver, point);
+    vec3 position = receiver.position - receiver.normal * offset;
     vec2 fraction = coordinates - base;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 16; ++i) {
@@ -178,20 +203,21 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
         vec2 weights = 2.0 - abs(vec2(tap) - fraction);
         ivec2 texel = clamp(ivec2((base + vec2(tap) + 0.5) * spacing), ivec2(0), last);
         float stored = storedDepth(light.shadowMap, ivec3(texel, inner.layer)) * light.direction.w;
-        float thickness = bounded(receiver, max(inner.depth - stored + removed, 0.0) * view.mmPerUnit);
+        float plane = linearDepth(light, position + steps * (vec2(texel) + 0.5 - inner.texel));
+        float thickness = bounded(receiver, max(plane - stored + removed, 0.0) * view.mmPerUnit);
         sum += weights.x * weights.y / 16.0 * vec4(transmittance(receiver.material, thickness), thickness);
     }
     return sum;
 }
 
-// Light of one light through the receiver's body (rgb), and the thickness in mm (w); 0 where it gives none.
+// Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where it does not shine through.
 vec4 transmitLight(LightParameters light, Receiver receiver) {
     Incidence incidence = incidenceAt(light, receiver.position);
     float cosine = -dot(receiver.normal, incidence.toLight);
     if (cosine <= 0.0 || !any(greaterThan(incidence.irradiance, vec3(0.0)))) {
-        return vec4(0.0);
+        return vec4(0.0, 0.0, 0.0, -1.0);
     }
-    vec4 through = vec4(0.0);
+    vec4 through = vec4(0.0, 0.0, 0.0, -1.0);
     ShadowPoint point;
     point.inside = false;
     if (light.shadowMap != noShadowMap) {
@@ -244,7 +270,7 @@ void main() {
     for (uint i = 0u; i < view.lightCount; ++i) {
         vec4 part = transmitLight(lights[i], receiver);
         light += part.rgb;
-        thickness = any(greaterThan(part.rgb, vec3(0.0))) ? min(thickness, part.w) : thickness;
+        thickness = part.w >= 0.0 ? min(thickness, part.w) : thickness;
     }
     writeResult(pixel, translucency * light, thickness < 1e30 ? thickness : 0.0);
 }

@@ -87,13 +87,13 @@ Gpu& Gpu::instance() {
     return gpu;
 }
 
-Gpu::Gpu() {
+Gpu::Gpu(bool validation) {
     const char* layer = "VK_LAYER_KHRONOS_validation";
     const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
     const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
-    VkValidationFeaturesEXT validation{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
-    validation.enabledValidationFeatureCount = 1;
-    validation.pEnabledValidationFeatures = enabled;
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = enabled;
     VkDebugUtilsMessengerCreateInfoEXT messengerInfo{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     messengerInfo.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
@@ -101,20 +101,24 @@ Gpu::Gpu() {
         VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     messengerInfo.pfnUserCallback = onMessage;
     messengerInfo.pUserData = &messages_;
-    validation.pNext = &messengerInfo;
+    features.pNext = &messengerInfo;
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.apiVersion = VK_API_VERSION_1_2;
     VkInstanceCreateInfo instanceInfo{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
-    instanceInfo.pNext = &validation;
     instanceInfo.pApplicationInfo = &application;
-    instanceInfo.enabledLayerCount = 1;
-    instanceInfo.ppEnabledLayerNames = &layer;
-    instanceInfo.enabledExtensionCount = 2;
-    instanceInfo.ppEnabledExtensionNames = extensions;
+    if (validation) {
+        instanceInfo.pNext = &features;
+        instanceInfo.enabledLayerCount = 1;
+        instanceInfo.ppEnabledLayerNames = &layer;
+        instanceInfo.enabledExtensionCount = 2;
+        instanceInfo.ppEnabledExtensionNames = extensions;
+    }
     check(vkCreateInstance(&instanceInfo, nullptr, &vkInstance), "vkCreateInstance");
-    const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(vkInstance, "vkCreateDebugUtilsMessengerEXT"));
-    check(createMessenger(vkInstance, &messengerInfo, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+    if (validation) {
+        const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(vkInstance, "vkCreateDebugUtilsMessengerEXT"));
+        check(createMessenger(vkInstance, &messengerInfo, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+    }
 
     std::uint32_t count = 1;
     const VkResult found = vkEnumeratePhysicalDevices(vkInstance, &count, &physicalDevice);
@@ -151,9 +155,11 @@ Gpu::Gpu() {
 Gpu::~Gpu() {
     vkDestroyCommandPool(device, commandPool, nullptr);
     vkDestroyDevice(device, nullptr);
-    const auto destroyMessenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(vkInstance, "vkDestroyDebugUtilsMessengerEXT"));
-    destroyMessenger(vkInstance, messenger_, nullptr);
+    if (messenger_ != VK_NULL_HANDLE) {
+        const auto destroyMessenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(vkInstance, "vkDestroyDebugUtilsMessengerEXT"));
+        destroyMessenger(vkInstance, messenger_, nullptr);
+    }
     vkDestroyInstance(vkInstance, nullptr);
 }
 
@@ -198,8 +204,10 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     result.extent = settings.extent;
     result.layers = settings.layers;
     const bool isDepth = aspectOf(settings.format) == VK_IMAGE_ASPECT_DEPTH_BIT;
-    result.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    result.usage |= isDepth ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT} : settings.usage;
+    // A depth image's read-only layout asks for more than sampling.
+    constexpr VkImageUsageFlags depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    result.usage =
+        (isDepth ? depthUsage : settings.usage) | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = settings.format;

@@ -53,8 +53,9 @@ std::size_t texelBytes(VkFormat format);
 
 class Gpu {
 public:
-    /// Opens the first Vulkan 1.2 device with the features the effect requires. Throws std::runtime_error.
-    Gpu();
+    /// Opens the first Vulkan 1.2 device with the features the effect requires; `validation`: under the validation
+    /// layers. Throws std::runtime_error.
+    explicit Gpu(bool validation = true);
     ~Gpu();
     Gpu(const Gpu&) = delete;
 

@@ -1,0 +1,306 @@
+// effect_timing: GPU times of the scatter techniques on synthetic scenes, beside a copy pass, as a table and CSV.
+//   effect_timing [--suite targets|footprint|layers|materials|all] [--csv FILE] [--rounds N]
+// Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 19 steady repeats.
+#include "tests/gpu/support/scene_input.hpp"
+#include "tests/gpu/timing/copy_pass.hpp"
+#include "tests/gpu/timing/measure.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <map>
+
+using namespace nacre;
+using namespace nacre::tests;
+
+namespace {
+
+constexpr VkExtent2D fullHd{1920, 1080};
+constexpr VkExtent2D ultraHd{3840, 2160};
+constexpr ScatterFormats smallIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UINT, VK_FORMAT_R32_SFLOAT,
+                                  VK_FORMAT_R16G16B16A16_SFLOAT};
+constexpr ScatterFormats largeIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16_UINT, VK_FORMAT_R32_SFLOAT,
+                                  VK_FORMAT_R16G16B16A16_SFLOAT};
+
+struct Options {
+    std::string suite = "all";
+    std::string csv = "effect_timing.csv";
+    MeasureSettings measure;
+};
+
+// What is on the screen.
+struct Subject {
+    SceneKind kind = SceneKind::Plane;
+    VkExtent2D extent = fullHd;
+    double footprint = 20;
+    double coverage = 1; // planes: share of the pixels that scatter, a rectangle in the middle
+    int layers = 6;
+    int materials = 4;
+    std::string label() const {
+        static const char* const names[] = {"plane", "spheres", "tilt", "thin"};
+        char text[128];
+        std::snprintf(text, sizeof(text), "%s %ux%u cover %.0f%% footprint %.0f px, %d layers, %d materials",
+                      names[static_cast<int>(kind)], extent.width, extent.height, 100 * coverage, footprint, layers,
+                      materials);
+        return text;
+    }
+};
+
+struct Row {
+    Subject subject;
+    Timing timing;
+};
+
+// A material of skin's width in `layers` Gaussians.
+Material layeredSkin(int layers) {
+    if (layers == 6) {
+        return skin();
+    }
+    Material material;
+    material.name = "layers";
+    for (int i = 0; i < layers; ++i) {
+        const double share = layers == 1 ? 1 : i / (layers - 1.0);
+        const double variance = layers == 1 ? 1.38 : 0.0064 * std::pow(7.41 / 0.0064, share);
+        material.layers.push_back({{1, 1 - 0.5 * share, 1 - 0.9 * share}, variance});
+    }
+    return material;
+}
+
+// Planes: blocks of 8x8 px of every material in turn. The other scenes have the four test materials.
+ScatterScene makeSubject(const Subject& subject) {
+    SceneSettings settings{.kind = subject.kind,
+                           .footprint = subject.footprint,
+                           .width = static_cast<int>(subject.extent.width),
+                           .height = static_cast<int>(subject.extent.height)};
+    ScatterScene scene = makeScatterScene(settings);
+    if (subject.kind != SceneKind::Plane) {
+        return scene;
+    }
+    scene.materials.assign(static_cast<std::size_t>(subject.materials), layeredSkin(subject.layers));
+    return scene;
+}
+
+// Material ids of a plane, which may exceed the scene's 8 bits.
+void setPlaneIds(ScatterInput& input, const Subject& subject) {
+    const double half = 0.5 * std::sqrt(subject.coverage);
+    for (std::uint32_t y = 0; y < input.extent.height; ++y) {
+        for (std::uint32_t x = 0; x < input.extent.width; ++x) {
+            const bool covered = std::abs((x + 0.5) / input.extent.width - 0.5) <= half &&
+                                 std::abs((y + 0.5) / input.extent.height - 0.5) <= half;
+            const std::uint32_t block = x / 8 + y / 8 * (input.extent.width / 8);
+            const std::uint32_t id = 1 + block % static_cast<std::uint32_t>(subject.materials);
+            input.materialId[input.index(x, y)] = static_cast<std::uint16_t>(covered ? id : 0);
+        }
+    }
+}
+
+std::vector<NacreTechnique> realTimeTechniques() {
+    std::vector<NacreTechnique> techniques;
+    for (int i = 1; std::string(nacreTechniqueString(static_cast<NacreTechnique>(i))) != "unknown"; ++i) {
+        if (i != NACRE_TECHNIQUE_BRUTE) {
+            techniques.push_back(static_cast<NacreTechnique>(i));
+        }
+    }
+    return techniques;
+}
+
+Variant makeVariant(Effect& effect, const ScatterImages& images, NacreTechnique technique, std::string name) {
+    NacreCost cost{};
+    nacreGetScatterCost(effect.context, technique, &cost);
+    Variant variant;
+    variant.name = std::move(name);
+    variant.passes.assign(cost.passNames, cost.passNames + cost.passCount);
+    variant.begin = [&effect] { nacreBeginFrame(effect.context, 0); };
+    variant.record = [&effect, &images, technique](VkCommandBuffer commandBuffer, VkQueryPool pool,
+                                                   std::uint32_t first) {
+        NacreScatterInfo info = images.info;
+        info.technique = technique;
+        info.timestamps = {pool, first};
+        if (nacreCmdScatter(effect.context, commandBuffer, &info) != NACRE_SUCCESS) {
+            throw std::runtime_error(effect.messages.back());
+        }
+    };
+    return variant;
+}
+
+void print(const Timing& timing) {
+    std::printf("  %-16s steady %8.1f [%7.1f %7.1f]  single %8.1f [%7.1f %7.1f]  n %zu ", timing.name.c_str(),
+                timing.steady.median, timing.steady.p5, timing.steady.p95, timing.single.median, timing.single.p5,
+                timing.single.p95, timing.steady.samples);
+    for (std::size_t i = 0; timing.passes.size() > 1 && i < timing.passes.size(); ++i) {
+        std::printf(" %s %.1f", timing.passNames[i].c_str(), timing.passes[i].median);
+    }
+    std::puts("");
+}
+
+// The techniques in turn, the first of them twice (their difference is the noise floor), and the copy pass.
+void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechnique> techniques,
+                    const Options& options, std::vector<Row>& rows) {
+    const ScatterScene scene = makeSubject(subject);
+    ScatterInput input = toInput(scene);
+    if (subject.kind == SceneKind::Plane) {
+        setPlaneIds(input, subject);
+    }
+    NacreContextInfo info = gpu.contextInfo(subject.extent);
+    info.recordsPerFrame = options.measure.repeats;
+    info.maxMaterials = static_cast<std::uint32_t>(scene.materials.size());
+    info.techniques = 0;
+    for (const NacreTechnique technique : techniques) {
+        info.techniques |= 1u << technique;
+    }
+    Effect effect(gpu, info);
+    effect.setMaterials(scene.materials);
+    const ScatterImages images(gpu, input, subject.materials > 4 ? largeIds : smallIds);
+    const CopyPass copy(gpu, images.info);
+    std::vector<Variant> variants;
+    variants.push_back({"copy",
+                        {"copy"},
+                        [] {},
+                        [&copy](VkCommandBuffer commandBuffer, VkQueryPool pool, std::uint32_t first) {
+                            copy.record(commandBuffer, pool, first);
+                        }});
+    for (const NacreTechnique technique : techniques) {
+        variants.push_back(makeVariant(effect, images, technique, nacreTechniqueString(technique)));
+    }
+    variants.push_back(
+        makeVariant(effect, images, techniques[0], nacreTechniqueString(techniques[0]) + std::string(" again")));
+    std::printf("%s\n", subject.label().c_str());
+    for (Timing& timing : measure(gpu, variants, options.measure)) {
+        print(timing);
+        rows.push_back({subject, std::move(timing)});
+    }
+    std::fflush(stdout);
+}
+
+void printSlopes(const char* what, std::span<const Row> rows, double (*parameter)(const Subject&)) {
+    std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> series;
+    for (const Row& row : rows) {
+        series[row.timing.name].first.push_back(parameter(row.subject));
+        series[row.timing.name].second.push_back(row.timing.steady.median);
+    }
+    for (const auto& [name, points] : series) {
+        const Line line = fitLine(points.first, points.second);
+        std::printf("  %-16s %.2f us + (%.4f +- %.4f) us per %s\n", name.c_str(), line.intercept, line.slope,
+                    line.confidence, what);
+    }
+}
+
+void runTargets(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
+    const std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
+    const std::vector<NacreTechnique> all = realTimeTechniques();
+    for (const VkExtent2D extent : {fullHd, ultraHd}) {
+        const bool small = extent.width == fullHd.width;
+        for (const double footprint : {6.0, 20.0, 60.0}) {
+            measureSubject(gpu, {.extent = extent, .footprint = footprint}, small ? all : techniques, options, rows);
+            measureSubject(gpu, {.extent = extent, .footprint = footprint, .coverage = 0.25}, techniques, options,
+                           rows);
+        }
+        for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
+            for (const double footprint : {6.0, 60.0}) {
+                measureSubject(gpu, {.kind = kind, .extent = extent, .footprint = footprint}, techniques, options,
+                               rows);
+            }
+        }
+    }
+}
+
+void runFootprints(Gpu& gpu, const Options& options, std::vector<Row>& all) {
+    std::vector<Row> rows;
+    for (const double footprint : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}) {
+        measureSubject(gpu, {.footprint = footprint, .materials = 1}, realTimeTechniques(), options, rows);
+    }
+    printSlopes("px of footprint", rows, [](const Subject& subject) { return subject.footprint; });
+    all.insert(all.end(), rows.begin(), rows.end());
+}
+
+void runLayers(Gpu& gpu, const Options& options, std::vector<Row>& all) {
+    std::vector<Row> rows;
+    for (const int layers : {1, 2, 4, 8, 16, 32}) {
+        measureSubject(gpu, {.layers = layers, .materials = 1}, realTimeTechniques(), options, rows);
+    }
+    printSlopes("layer", rows, [](const Subject& subject) { return static_cast<double>(subject.layers); });
+    all.insert(all.end(), rows.begin(), rows.end());
+}
+
+void runMaterials(Gpu& gpu, const Options& options, std::vector<Row>& all) {
+    std::vector<Row> rows;
+    // Five and more have 16-bit ids; so have all of this series.
+    for (const int materials : {5, 10, 50, 100, 500, 1000}) {
+        measureSubject(gpu, {.materials = materials}, realTimeTechniques(), options, rows);
+    }
+    printSlopes("material", rows, [](const Subject& subject) { return static_cast<double>(subject.materials); });
+    all.insert(all.end(), rows.begin(), rows.end());
+}
+
+void writeCsv(const Options& options, std::span<const Row> rows) {
+    std::ofstream file(options.csv);
+    file << "scene,width,height,coverage,footprint,layers,materials,technique,samples,steady_median_us,steady_p5_us,"
+            "steady_p95_us,single_median_us,single_p5_us,single_p95_us,pass_medians_us\n";
+    static const char* const names[] = {"plane", "spheres", "tilt", "thin"};
+    for (const auto& [subject, timing] : rows) {
+        file << names[static_cast<int>(subject.kind)] << ',' << subject.extent.width << ',' << subject.extent.height
+             << ',' << subject.coverage << ',' << subject.footprint << ',' << subject.layers << ',' << subject.materials
+             << ',' << timing.name << ',' << timing.steady.samples << ',' << timing.steady.median << ','
+             << timing.steady.p5 << ',' << timing.steady.p95 << ',' << timing.single.median << ',' << timing.single.p5
+             << ',' << timing.single.p95 << ',';
+        for (std::size_t i = 0; i < timing.passes.size(); ++i) {
+            file << (i ? ";" : "") << timing.passNames[i] << '=' << timing.passes[i].median;
+        }
+        file << '\n';
+    }
+    if (!file.flush()) {
+        throw std::runtime_error("cannot write " + options.csv);
+    }
+}
+
+Options parse(int count, char** arguments) {
+    Options options;
+    for (int i = 1; i < count; ++i) {
+        const std::string name = arguments[i];
+        if (i + 1 == count) {
+            throw std::runtime_error(name + " needs a value");
+        }
+        const std::string value = arguments[++i];
+        if (name == "--suite") {
+            options.suite = value;
+        } else if (name == "--csv") {
+            options.csv = value;
+        } else if (name == "--rounds" && std::atoi(value.c_str()) > 0) {
+            options.measure.rounds = static_cast<std::uint32_t>(std::atoi(value.c_str()));
+        } else {
+            throw std::runtime_error("unknown argument " + name + " " + value);
+        }
+    }
+    return options;
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    try {
+        const Options options = parse(count, arguments);
+        Gpu gpu(false);
+        std::printf("%s, driver %u\n", gpu.properties.deviceName, gpu.properties.driverVersion);
+        std::vector<Row> rows;
+        const std::pair<const char*, void (*)(Gpu&, const Options&, std::vector<Row>&)> suites[] = {
+            {"targets", runTargets}, {"footprint", runFootprints}, {"layers", runLayers}, {"materials", runMaterials}};
+        bool known = false;
+        for (const auto& [name, run] : suites) {
+            if (options.suite == "all" || options.suite == name) {
+                known = true;
+                run(gpu, options, rows);
+            }
+        }
+        if (!known) {
+            throw std::runtime_error("--suite is '" + options.suite +
+                                     "', must be targets, footprint, layers, materials or all");
+        }
+        writeCsv(options, rows);
+        return 0;
+    } catch (const std::exception& exception) {
+        std::fprintf(stderr, "effect_timing: %s\n", exception.what());
+        return 1;
+    }
+}
