@@ -26,7 +26,8 @@ void fitExposure(Scene& scene);
 /// specular where the surface has no texture for them.
 void setSurfaceMaterial(Scene& scene, Surface& surface, std::uint32_t material);
 
-/// Gives every surface this subsurface material (the CLI's --material), which becomes the scene's only one.
+/// Gives this subsurface material to the surfaces that have one, or to every surface where none has (the CLI's
+/// --material); it becomes the scene's only one.
 void assignMaterial(Scene& scene, const Material& material);
 
 } // namespace nacre::scene

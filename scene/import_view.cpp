@@ -105,9 +105,13 @@ void setSurfaceMaterial(Scene& scene, Surface& surface, std::uint32_t material) 
 }
 
 void assignMaterial(Scene& scene, const Material& material) {
+    const auto scatters = [](const Surface& surface) { return surface.material != none; };
+    const bool all = std::ranges::none_of(scene.surfaces, scatters);
     scene.materials = {material};
     for (Surface& surface : scene.surfaces) {
-        setSurfaceMaterial(scene, surface, 0);
+        if (all || scatters(surface)) {
+            setSurfaceMaterial(scene, surface, 0);
+        }
     }
 }
 
