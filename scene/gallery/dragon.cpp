@@ -153,50 +153,81 @@ void addCrest(ImplicitSurface& dragon, const std::vector<TubePoint>& spine) {
     addPlate(dragon, tip + glm::vec3(4, -8, -12), tip + glm::vec3(-2, 4, -4), tip + glm::vec3(14, 14, 12), 1, 2);
 }
 
-/// Overlapping scales around the spine, broad plates on the belly.
-void embossScales(ImplicitSurface& dragon, const std::vector<TubePoint>& spine) {
-    std::vector<float> arc(spine.size(), 0);
-    for (std::size_t i = 1; i < spine.size(); ++i)
-        arc[i] = arc[i - 1] + glm::length(spine[i].center - spine[i - 1].center);
-    dragon.emboss(boundsOf({40, 130, -10}, {120, 130, 110}), [spine, arc](const glm::vec3& p) {
-        float nearest = 1e9f, position = 0, radius = 1;
-        glm::vec3 offset(0), axis(0, 1, 0);
-        for (std::size_t i = 0; i + 1 < spine.size(); ++i) {
-            const glm::vec3 a = spine[i].center, d = spine[i + 1].center - a;
-            const float t = glm::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.f, 1.f);
-            const glm::vec3 away = p - a - t * d;
-            const float r = glm::mix(spine[i].radius, spine[i + 1].radius, t);
-            const float excess = glm::length(away) - r;
-            if (excess < nearest)
-                nearest = excess, position = glm::mix(arc[i], arc[i + 1], t), radius = r, offset = away, axis = d;
-        }
-        const float fade = smoothStep(7, 2, std::abs(nearest)) * smoothStep(arc.back(), arc.back() - 10, position) *
-                           smoothStep(6, 9, radius);
-        if (fade == 0)
-            return 0.f;
-        axis = glm::normalize(axis);
-        const glm::vec3 front = glm::normalize(glm::vec3(0, -0.35f, 1) - axis * (axis.z - 0.35f * axis.y));
-        const float angle = arcTangent(glm::dot(offset, glm::cross(axis, front)), glm::dot(offset, front));
-        const float belly = smoothStep(0.95f, 0.8f, std::abs(angle));
+/// Where a point lies along and around the spine.
+struct SpinePlace {
+    float excess = 1e9f; ///< mm outside of the tube
+    float position = 0;  ///< mm from the tail's tip
+    float radius = 1;
+    glm::vec3 offset{0}, axis{0, 1, 0};
+};
 
-        const float row = position / 7, whole = std::floor(row), within = row - whole;
-        const float count = std::floor(2 * pi * radius / 8 + 0.5f);
+/// Overlapping scales around the spine, broad plates on the belly.
+class Scales {
+public:
+    explicit Scales(std::vector<TubePoint> spine) : spine_(std::move(spine)), arc_(spine_.size(), 0) {
+        for (std::size_t i = 1; i < spine_.size(); ++i)
+            arc_[i] = arc_[i - 1] + glm::length(spine_[i].center - spine_[i - 1].center);
+        for (std::size_t i = 0; i + 1 < spine_.size(); ++i)
+            while (float(counts_.size()) * rowHeight < arc_[i + 1])
+                counts_.push_back(std::floor(2 * pi * spine_[i].radius / 8 + 0.5f));
+    }
+
+    float height(const glm::vec3& p) const {
+        const SpinePlace place = find(p);
+        const float fade = smoothStep(reach, 2, std::abs(place.excess)) *
+                           smoothStep(arc_.back(), arc_.back() - 10, place.position) * smoothStep(6, 9, place.radius);
+        if (fade == 0)
+            return 0;
+        // The belly looks down on the tail and forward on the body.
+        const glm::vec3 axis = glm::normalize(place.axis);
+        const glm::vec3 belly =
+            glm::mix(glm::vec3(0, -1, 0), glm::vec3(0, -0.35f, 1), smoothStep(arc_[22], arc_[30], place.position));
+        const glm::vec3 front = glm::normalize(belly - axis * glm::dot(axis, belly));
+        const float angle = arcTangent(glm::dot(place.offset, glm::cross(axis, front)), glm::dot(place.offset, front));
+        const float row = place.position / rowHeight, whole = std::floor(row), within = row - whole;
+        const float count = counts_[std::min(std::size_t(whole), counts_.size() - 1)];
         const float column = angle / (2 * pi) * count + 0.5f * (whole - 2 * std::floor(whole / 2));
         const float u = 2 * (column - std::floor(column)) - 1;
-        const float scale = (1 - u * u * u * u) * smoothStep(0, 0.25f, within) * (1 - 0.75f * within);
-        const float plate = smoothStep(0, 0.2f, within) * (1 - 0.8f * within);
-        return fade * (0.9f * glm::mix(scale, plate, belly) - 0.3f);
-    });
-}
+        const float scale = (1 - u * u * u * u) * smoothStep(0, 0.33f, within) * (1 - 0.75f * within);
+        const float plate = smoothStep(0, 0.33f, within) * (1 - 0.8f * within);
+        return fade * (1.0f * glm::mix(scale, plate, smoothStep(0.95f, 0.8f, std::abs(angle))) - 0.3f);
+    }
+
+private:
+    static constexpr float rowHeight = 7, reach = 7;
+
+    SpinePlace find(const glm::vec3& p) const {
+        SpinePlace best;
+        for (std::size_t i = 0; i + 1 < spine_.size(); ++i) {
+            const glm::vec3 a = spine_[i].center, d = spine_[i + 1].center - a;
+            const float far = arc_[i + 1] - arc_[i] + std::max(spine_[i].radius, spine_[i + 1].radius) + reach;
+            if (glm::dot(p - a, p - a) > far * far)
+                continue;
+            const float t = glm::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.f, 1.f);
+            const glm::vec3 away = p - a - t * d;
+            const float radius = glm::mix(spine_[i].radius, spine_[i + 1].radius, t);
+            const float excess = glm::length(away) - radius;
+            if (excess < best.excess)
+                best = {excess, glm::mix(arc_[i], arc_[i + 1], t), radius, away, d};
+        }
+        return best;
+    }
+
+    std::vector<TubePoint> spine_;
+    std::vector<float> arc_;    ///< mm from the tail's tip
+    std::vector<float> counts_; ///< scales in every row
+};
 
 } // namespace
 
 Body makeDragon(std::size_t triangles) {
     ImplicitSurface dragon;
     const std::vector<TubePoint> back = spine();
-    addTube(dragon, back, 0);
+    for (std::size_t i = 0; i + 1 < back.size(); i += 8) // in pieces, each with its own bounds
+        addTube(dragon, std::span(back).subspan(i, std::min<std::size_t>(9, back.size() - i)), 0);
     bothSides([&](float side) { addLimbs(dragon, side); });
-    embossScales(dragon, back);
+    dragon.emboss(boundsOf({40, 130, -10}, {120, 130, 110}),
+                  [scales = Scales(back)](const glm::vec3& p) { return scales.height(p); });
     addHead(dragon);
     addCrest(dragon, back);
     bothSides([&](float side) { addWing(dragon, side); });

@@ -13,7 +13,7 @@ constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 /// Weight of the squared edge length against the squared distance: evens the triangles out where all is flat.
 constexpr double lengthWeight = 5e-5;
 /// A collapse is done when its turn comes unless it has become this much dearer since it was queued.
-constexpr double patience = 1.15;
+constexpr double patience = 1.5;
 
 /// Area-weighted sum of squared distances to planes.
 struct Quadric {
@@ -49,6 +49,7 @@ public:
           triangles_(solid.triangleCount()),
           quadrics_(positions_.size()),
           queued_(positions_.size(), false),
+          stamps_(positions_.size(), 0),
           firstCorner_(positions_.size(), nobody),
           nextCorner_(indices_.size()) {
         for (std::uint32_t corner = 0; corner < indices_.size(); ++corner) {
@@ -131,15 +132,16 @@ private:
     }
 
     bool allowed(std::uint32_t v, std::uint32_t target) const {
+        ++stamp_;
+        forCorners(target, [&](std::uint32_t corner) { stamps_[after(corner)] = stamp_; });
         std::size_t common = 0;
         bool opposed = true;
         forCorners(v, [&](std::uint32_t corner) {
-            const std::uint32_t neighbour = after(corner);
-            forCorners(target, [&](std::uint32_t other) { common += after(other) == neighbour; });
-            if (neighbour == target)
+            common += stamps_[after(corner)] == stamp_;
+            if (after(corner) == target)
                 opposed &= valence(before(corner)) > 3;
             if (before(corner) == target)
-                opposed &= valence(neighbour) > 3;
+                opposed &= valence(after(corner)) > 3;
         });
         return common == 2 && opposed && keepsShape(v, target);
     }
@@ -203,6 +205,8 @@ private:
     std::size_t triangles_;
     std::vector<Quadric> quadrics_;
     std::vector<bool> queued_;
+    mutable std::vector<std::uint32_t> stamps_; ///< per vertex: the last question in which it was a neighbour
+    mutable std::uint32_t stamp_ = 0;
     std::vector<std::uint32_t> firstCorner_; ///< per vertex, the list of triangle corners that stand on it
     std::vector<std::uint32_t> nextCorner_;
     std::priority_queue<Collapse> queue_;
