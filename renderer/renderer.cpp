@@ -1,10 +1,14 @@
 #include "renderer/renderer.hpp"
 
 #include "renderer/compose.hpp"
+#include "renderer/copy_floor.hpp"
 #include "renderer/readback.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace nacre::renderer {
 namespace {
@@ -63,6 +67,26 @@ float checkedMetersPerUnit(const scene::Scene& scene) {
     return static_cast<float>(scene.metersPerUnit);
 }
 
+std::uint64_t allocatedBytes(const Gpu& gpu) {
+    return std::accumulate(gpu.allocatedBytes.begin(), gpu.allocatedBytes.end(), std::uint64_t{0});
+}
+
+/// Notes what is allocated during its life.
+class MemoryMeter {
+public:
+    MemoryMeter(const Gpu& gpu, std::vector<MemoryUse>& memory, const char* name)
+        : gpu_(gpu), memory_(memory), name_(name), before_(allocatedBytes(gpu)) {}
+    ~MemoryMeter() { memory_.push_back({name_, allocatedBytes(gpu_) - before_}); }
+    MemoryMeter(const MemoryMeter&) = delete;
+    MemoryMeter& operator=(const MemoryMeter&) = delete;
+
+private:
+    const Gpu& gpu_;
+    std::vector<MemoryUse>& memory_;
+    const char* name_;
+    std::uint64_t before_;
+};
+
 } // namespace
 
 /// Members are in the order in which they need each other.
@@ -71,8 +95,18 @@ struct Renderer::Implementation {
 
     /// Records one frame; the command buffer's previous use of `frameIndex` must have finished.
     void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex, const View& view);
+    void recordEffect(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex, const View& view);
+    template <typename Recorder>
+    void recordPass(const vk::raii::CommandBuffer& commandBuffer, const char* name, const Recorder& recorder);
     void render(const scene::Camera& camera);
+    void renderEffect();
+    template <typename Recorder> void submit(const Recorder& recorder);
     void fillReport();
+    /// Makes a part of the renderer and notes what memory it takes.
+    template <typename Make> auto part(const char* name, const Make& make) {
+        const MemoryMeter meter(gpu, memory, name);
+        return make();
+    }
 
     Gpu& gpu;
     RenderSettings settings;
@@ -83,6 +117,7 @@ struct Renderer::Implementation {
     scene::Bounds sceneBounds;
     LightSet lights;
     vk::raii::Sampler nearest;
+    std::vector<MemoryUse> memory;
     GpuScene scene;
     ShadowMaps shadowMaps;
     Environment environment;
@@ -91,9 +126,10 @@ struct Renderer::Implementation {
     Lighting lighting;
     Subsurface subsurface;
     Compose compose;
+    std::optional<CopyFloor> copyFloor;
     FrameTimer timer;
     FrameReport report;
-    bool rendered = false;
+    std::optional<View> rendered; ///< the last frame's view; empty while there is no whole frame
 };
 
 Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input, const RenderSettings& renderSettings)
@@ -106,36 +142,63 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
       sceneBounds(scene::bounds(input)),
       lights(placeLights(input, settings.shadowMapSize)),
       nearest(makeNearestSampler(gpu)),
-      scene(gpu, input),
-      shadowMaps(gpu, scene, lights.shadowLayers, settings.shadowMapSize),
-      environment(gpu, input.environment),
-      gbuffer(gpu, scene, extent, gbufferUsage()),
-      occlusion(gpu, gbuffer, nearest),
-      lighting(gpu, {gbuffer, occlusion, shadowMaps, environment, nearest}, lightConstants(lights, metersPerUnit),
-               effectUsage(NACRE_IMAGE_IRRADIANCE)),
-      subsurface(gpu, {extent, framesInFlight, metersPerUnit}, input.materials, lights.lights),
-      compose(gpu, {gbuffer, lighting, subsurface, environment, nearest}, {settings.width, settings.height}),
+      scene(part("geometry and textures", [&] { return GpuScene(gpu, input); })),
+      shadowMaps(
+          part("shadow maps", [&] { return ShadowMaps(gpu, scene, lights.shadowLayers, settings.shadowMapSize); })),
+      environment(part("environment", [&] { return Environment(gpu, input.environment); })),
+      gbuffer(part("G-buffer", [&] { return GBuffer(gpu, scene, extent, gbufferUsage()); })),
+      occlusion(part("ambient occlusion", [&] { return AmbientOcclusion(gpu, gbuffer, nearest); })),
+      lighting(part("lighting",
+                    [&] {
+                        return Lighting(gpu, {gbuffer, occlusion, shadowMaps, environment, nearest},
+                                        lightConstants(lights, metersPerUnit), effectUsage(NACRE_IMAGE_IRRADIANCE));
+                    })),
+      subsurface(
+          part("effect: outputs",
+               [&] {
+                   return Subsurface(gpu, {extent, framesInFlight, metersPerUnit}, input.materials, lights.lights);
+               })),
+      compose(part("compose and tone map",
+                   [&] {
+                       return Compose(gpu, {gbuffer, lighting, subsurface, environment, nearest},
+                                      {settings.width, settings.height});
+                   })),
       timer(gpu) {
+    if (settings.copyFloor) {
+        copyFloor.emplace(gpu, gbuffer, lighting.irradiance(), nearest);
+        report.copyBytes = copyFloor->bytes();
+    }
     report.triangles = scene::triangleCount(input);
     report.lights = static_cast<std::uint32_t>(lights.lights.size());
     report.materials = static_cast<std::uint32_t>(materialCount);
 }
 
+template <typename Recorder>
+void Renderer::Implementation::recordPass(const vk::raii::CommandBuffer& commandBuffer, const char* name,
+                                          const Recorder& recorder) {
+    const Label label(gpu, commandBuffer, name);
+    recorder();
+    timer.endPass(commandBuffer, name);
+}
+
 void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex,
                                       const View& view) {
-    const auto pass = [&](const char* name, const auto& recorder) {
-        const Label label(gpu, commandBuffer, name);
-        recorder();
-        timer.endPass(commandBuffer, name);
-    };
+    const auto pass = [&](const char* name, const auto& recorder) { recordPass(commandBuffer, name, recorder); };
     const Compose::Settings look{settings.scatter, settings.transmit, exposure, settings.samples, settings.dither};
-    const Subsurface::Frame frame{frameIndex, view, gbuffer, timer};
-    subsurface.beginFrame(frameIndex);
     timer.begin(commandBuffer);
     pass("shadow maps", [&] { shadowMaps.record(commandBuffer, scene); });
     pass("G-buffer", [&] { gbuffer.record(commandBuffer, scene, view); });
     pass("ambient occlusion", [&] { occlusion.record(commandBuffer, occlusionRadius * sceneBounds.radius()); });
     pass("lighting", [&] { lighting.record(commandBuffer); });
+    recordEffect(commandBuffer, frameIndex, view);
+    pass("compose", [&] { compose.recordRadiance(commandBuffer, look); });
+    pass("tone map", [&] { compose.recordColor(commandBuffer, look); });
+}
+
+void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex,
+                                            const View& view) {
+    const Subsurface::Frame frame{frameIndex, view, gbuffer, timer};
+    subsurface.beginFrame(frameIndex);
     if (settings.transmit) {
         const Label label(gpu, commandBuffer, "transmit");
         subsurface.transmit(commandBuffer, frame, shadowMaps.image());
@@ -144,17 +207,37 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
         const Label label(gpu, commandBuffer, "scatter");
         subsurface.scatter(commandBuffer, frame, lighting.irradiance(), settings.technique);
     }
-    pass("compose", [&] { compose.recordRadiance(commandBuffer, look); });
-    pass("tone map", [&] { compose.recordColor(commandBuffer, look); });
+    if (copyFloor) {
+        recordPass(commandBuffer, "copy", [&] { copyFloor->record(commandBuffer); });
+    }
+}
+
+template <typename Recorder> void Renderer::Implementation::submit(const Recorder& recorder) {
+    gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
+        const auto begin = std::chrono::steady_clock::now();
+        recorder(commandBuffer);
+        const std::chrono::duration<double, std::micro> duration = std::chrono::steady_clock::now() - begin;
+        report.recordingMicroseconds = duration.count();
+    });
+    fillReport();
 }
 
 void Renderer::Implementation::render(const scene::Camera& camera) {
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     const View view = makeView(camera, aspect, sceneBounds);
-    rendered = false;
-    gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) { record(commandBuffer, 0, view); });
-    rendered = true;
-    fillReport();
+    rendered.reset();
+    submit([&](const vk::raii::CommandBuffer& commandBuffer) { record(commandBuffer, 0, view); });
+    rendered = view;
+}
+
+void Renderer::Implementation::renderEffect() {
+    if (!rendered) {
+        throw RendererError("the effect cannot be done again before a frame has been rendered");
+    }
+    submit([&](const vk::raii::CommandBuffer& commandBuffer) {
+        timer.begin(commandBuffer);
+        recordEffect(commandBuffer, 0, *rendered);
+    });
 }
 
 void Renderer::Implementation::fillReport() {
@@ -164,6 +247,11 @@ void Renderer::Implementation::fillReport() {
     report.scatterDispatches = settings.scatter ? scatterCost.dispatchCount : 0;
     report.transmitDispatches = settings.transmit ? transmitCost.dispatchCount : 0;
     report.effectBytes = scatterCost.intermediateBytes + transmitCost.intermediateBytes;
+    report.memory = memory;
+    report.memory.push_back({"scatter: intermediates", scatterCost.intermediateBytes});
+    report.memory.push_back({"scatter: materials", scatterCost.materialBytes * materialCount});
+    report.memory.push_back({"transmit: intermediates", transmitCost.intermediateBytes});
+    report.memory.push_back({"transmit: materials", transmitCost.materialBytes * materialCount});
     report.subsurfaceCoverage = static_cast<double>(lighting.subsurfacePixels()) /
                                 (static_cast<double>(extent.width) * static_cast<double>(extent.height));
 }
@@ -191,6 +279,10 @@ Pixels Renderer::read(Output output) const {
                              self.settings.transmit});
     });
     return pixels;
+}
+
+void Renderer::renderEffect() {
+    guard([&] { implementation_->renderEffect(); });
 }
 
 const FrameReport& Renderer::report() const {

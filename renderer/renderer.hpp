@@ -39,6 +39,9 @@ struct RenderSettings {
     std::uint32_t samples = 1;
     /// Adds half a bit of noise before rounding to 8 bits, against banding in smooth gradients.
     bool dither = false;
+    /// Adds the pass "copy" after the effect: it reads irradiance, depth and material ids, writes as much as a scatter
+    /// pass does, and is what no technique can be faster than.
+    bool copyFloor = false;
 };
 
 struct PassTime {
@@ -46,10 +49,20 @@ struct PassTime {
     double microseconds = 0;
 };
 
+/// Device memory of one part of the renderer.
+struct MemoryUse {
+    std::string name;
+    std::uint64_t bytes = 0;
+};
+
 /// What the last frame did.
 struct FrameReport {
-    std::vector<PassTime> passes; ///< in order of execution, the effect's passes included
-    double totalMicroseconds = 0; ///< first to last timestamp
+    /// In order of execution. The effect's are called "transmit: …" and "scatter: …".
+    std::vector<PassTime> passes;
+    double totalMicroseconds = 0;     ///< first to last timestamp
+    double recordingMicroseconds = 0; ///< processor time to record it
+    std::uint64_t copyBytes = 0;      ///< what the pass "copy" reads and writes; 0 without RenderSettings::copyFloor
+    std::vector<MemoryUse> memory;    ///< of the renderer's parts, and of the effect's intermediates and materials
     std::uint32_t scatterDispatches = 0;
     std::uint32_t transmitDispatches = 0;
     std::uint64_t effectBytes = 0; ///< intermediates of the effect
@@ -76,6 +89,9 @@ public:
 
     /// Draws one frame from `camera` and waits for it.
     void render(const scene::Camera& camera);
+    /// Does the last frame's effect (and copy) again on its images, and waits for it; the report then has only those
+    /// passes.
+    void renderEffect();
     /// The last frame's pixels.
     Pixels read(Output output) const;
     const FrameReport& report() const;
