@@ -48,7 +48,8 @@ Texture decodeTexture(std::span<const std::uint8_t> bytes, const std::string& na
     int channels = 0;
     const int size = static_cast<int>(bytes.size());
     if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width <= 0 || height <= 0) {
-        throw SceneError(name + ": is not a readable PNG, JPEG, BMP, TGA or PSD image");
+        throw SceneError(name + ": is not a readable PNG, JPEG, BMP, TGA or PSD image of at most " +
+                         std::to_string(maxImageSide) + " pixels a side");
     }
     const std::uint64_t pixelCount = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (static_cast<std::uint32_t>(std::max(width, height)) > maxImageSide || pixelCount > maxTexturePixels) {

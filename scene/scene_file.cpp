@@ -114,7 +114,7 @@ private:
     void addModel(SceneFileObject& object) {
         object.require("model");
         const std::string source = object.text("model");
-        Scene model = source == "gallery" ? makeGallery() : loadNamed(object, source);
+        Scene model = source == "gallery" ? gallery() : loadNamed(object, source);
         std::array<const char*, units.size()> unitNames{};
         std::ranges::transform(units, unitNames.begin(), &Unit::name);
         const std::size_t unit = object.choice("units", 0, unitNames);
@@ -126,6 +126,14 @@ private:
         const std::string name = object.text("name");
         object.finish();
         append(std::move(model), transform, name);
+    }
+
+    /// Built once, however often it is placed: that takes seconds.
+    const Scene& gallery() {
+        if (gallery_.instances.empty()) {
+            gallery_ = makeGallery();
+        }
+        return gallery_;
     }
 
     Scene loadNamed(const SceneFileObject& object, const std::string& source) {
@@ -265,6 +273,7 @@ private:
     std::filesystem::path path_;
     SceneFileObject root_;
     Scene scene_;
+    Scene gallery_;
 };
 
 } // namespace

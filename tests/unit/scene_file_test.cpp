@@ -1,0 +1,296 @@
+// Scene files: what they place, what they refuse, and that the schema says the same as the reader.
+#include "scene/scene_file.hpp"
+
+#include "scene/import.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <fstream>
+#include <numbers>
+#include <set>
+
+using namespace nacre;
+using namespace nacre::scene;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder with a triangle, a material and an environment, removed with the test.
+class SceneFile : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(folder);
+        std::ofstream(folder / "triangle.obj") << "mtllib triangle.mtl\no triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                                  "usemtl red\nf 1 2 3\n";
+        std::ofstream(folder / "triangle.mtl") << "newmtl red\nKd 1 0 0\n";
+        std::ofstream(folder / "soap.json") << R"({"meanFreePath": [1, 2, 3]})";
+        std::ofstream sky(folder / "sky.hdr", std::ios::binary);
+        sky << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+        sky.write("\x80\x80\x80\x81\x80\x80\x80\x82", 8);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Scene read(const std::string& text) const {
+        const fs::path file = folder / "scene.json";
+        std::ofstream(file) << text;
+        return load(file);
+    }
+    Scene read(const Json& json) const { return read(json.dump()); }
+
+    /// The sentence without the folder; "" when the file is accepted.
+    template <typename Text> std::string error(const Text& text) const {
+        try {
+            read(text);
+        } catch (const SceneError& failure) {
+            std::string sentence = failure.what();
+            EXPECT_TRUE(sentence.starts_with(folder.string() + "/")) << sentence;
+            return sentence.substr(folder.string().size() + 1);
+        }
+        return "";
+    }
+
+    const fs::path folder = fs::temp_directory_path() / ("nacre-scene-file-" + std::to_string(::getpid()));
+};
+
+Json minimal() {
+    return {{"models", {{{"model", "triangle.obj"}}}}};
+}
+
+/// Every key of every object.
+Json everything() {
+    return Json::parse(R"({
+        "$schema": "scene.schema.json", "name": "all", "metersPerUnit": 0.01, "exposure": 2,
+        "models": [{"model": "triangle.obj", "name": "a", "instances": ["triangle"], "units": "mm",
+                    "translate": [1, 2, 3], "rotate": [0, 0, 90], "scale": 2, "material": "skin",
+                    "materials": {"red": "soap.json"},
+                    "surface": {"baseColor": [0.1, 0.2, 0.3], "metallic": 0.4, "roughness": 0.6, "specular": 0.7,
+                                "thickness": 5, "doubleSided": true}}],
+        "lights": [{"name": "l", "type": "spot", "color": [1, 2, 3], "intensity": 4, "position": [1, 2, 3],
+                    "direction": [0, 0, -2], "range": 5, "innerConeAngle": 10, "outerConeAngle": 60,
+                    "castsShadow": false}],
+        "cameras": [{"name": "c", "position": [0, 0, 9], "target": [0, 1, 0], "up": [0, 2, 0],
+                     "projection": "orthographic", "verticalFieldOfView": 90, "orthographicHeight": 3,
+                     "offCenter": [0.5, -0.5], "nearPlane": 1, "farPlane": 20}],
+        "environment": {"image": "sky.hdr", "intensity": 2, "rotation": 180, "zenith": [1, 1, 1],
+                        "horizon": [2, 2, 2], "ground": [3, 3, 3]}})");
+}
+
+TEST_F(SceneFile, SetsEveryMember) {
+    const Scene scene = read(everything());
+    EXPECT_EQ(scene.name, "all");
+    EXPECT_DOUBLE_EQ(scene.metersPerUnit, 0.01);
+    EXPECT_FLOAT_EQ(scene.exposure, 2);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].name, "a/triangle");
+    // Millimetres to centimetres, twice as large, a quarter turn about z: (1, 0, 0) goes to (1, 2.2, 3).
+    const glm::vec3 corner(scene.instances[0].transform * glm::vec4(1, 0, 0, 1));
+    EXPECT_NEAR(glm::distance(corner, glm::vec3(1, 2.2f, 3)), 0, 1e-5);
+    ASSERT_EQ(scene.surfaces.size(), 1u);
+    const Surface& surface = scene.surfaces[0];
+    EXPECT_EQ(scene.materials.at(surface.material).name, "soap");
+    EXPECT_EQ(surface.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 1));
+    EXPECT_FLOAT_EQ(surface.metallic, 0.4f);
+    EXPECT_FLOAT_EQ(surface.roughness, 0.6f);
+    EXPECT_FLOAT_EQ(surface.specular, 0.7f);
+    EXPECT_FLOAT_EQ(surface.thickness, 5);
+    EXPECT_TRUE(surface.doubleSided);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    const Light& light = scene.lights[0];
+    EXPECT_EQ(light.kind, LightKind::Spot);
+    EXPECT_EQ(light.color, glm::vec3(1, 2, 3));
+    EXPECT_EQ(light.direction, glm::vec3(0, 0, -1));
+    EXPECT_FLOAT_EQ(light.outerConeAngle, std::numbers::pi_v<float> / 3);
+    EXPECT_FALSE(light.castsShadow);
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    const Camera& camera = scene.cameras[0];
+    EXPECT_EQ(camera.projection, ProjectionKind::Orthographic);
+    EXPECT_FLOAT_EQ(camera.verticalFieldOfView, std::numbers::pi_v<float> / 2);
+    EXPECT_EQ(camera.offCenter, glm::vec2(0.5f, -0.5f));
+    EXPECT_FLOAT_EQ(camera.farPlane, 20);
+    ASSERT_TRUE(scene.environment.image.has_value());
+    EXPECT_EQ(scene.environment.image->width, 2u);
+    EXPECT_FLOAT_EQ(scene.environment.rotation, std::numbers::pi_v<float>);
+    EXPECT_EQ(scene.environment.ground, glm::vec3(3));
+}
+
+TEST_F(SceneFile, FillsInWhatIsMissing) {
+    const Scene scene = read(minimal());
+    EXPECT_EQ(scene.name, "scene");
+    EXPECT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.lights.size(), 3u);
+    EXPECT_FALSE(scene.environment.image.has_value());
+}
+
+TEST_F(SceneFile, GivesMaterialsByNameFileValueAndNull) {
+    for (const auto& [value, name] : std::initializer_list<std::pair<Json, std::string>>{
+             {"marble", "marble"}, {"soap.json", "soap"}, {{{"name", "own"}, {"meanFreePath", {1, 1, 1}}}, "own"}}) {
+        Json json = minimal();
+        json["models"][0]["material"] = value;
+        const Scene scene = read(json);
+        EXPECT_EQ(scene.materials.at(scene.surfaces[0].material).name, name);
+    }
+    Json json = minimal();
+    json["models"][0]["material"] = "skin";
+    json["models"][0]["materials"] = {{"red", nullptr}};
+    EXPECT_EQ(read(json).surfaces[0].material, none);
+}
+
+TEST_F(SceneFile, NamesTheFieldThatIsWrong) {
+    const std::tuple<const char*, Json, std::string> cases[]{
+        {"/lights/0/intensity", -3, "lights[0].intensity is -3, must be >= 0"},
+        {"/lights/0/color/1", -1, "lights[0].color[1] is -1, must be >= 0"},
+        {"/lights/0/type", "laser", R"(lights[0].type is "laser", must be one of "directional", "spot", "point")"},
+        {"/lights/0/direction", {0, 0, 0}, "lights[0].direction is [0,0,0], must be a direction other than (0, 0, 0)"},
+        {"/lights/0/innerConeAngle", 80, "lights[0].innerConeAngle is 80, must be at most outerConeAngle"},
+        {"/lights/0/castsShadow", 1, "lights[0].castsShadow is 1, must be true or false"},
+        {"/cameras/0/position", {0, 1, 0}, "cameras[0].position is [0,1,0], must be another point than the target"},
+        {"/cameras/0/up", {0, 1, -9}, "cameras[0].up is parallel to the view direction"},
+        {"/cameras/0/farPlane", 0.5, "cameras[0].farPlane is 0.5, must be beyond nearPlane"},
+        {"/cameras/0/verticalFieldOfView", 180, "cameras[0].verticalFieldOfView is 180, must be 0.01 to 170"},
+        {"/models", Json::array(), "models is [], must be an array with at least one model"},
+        {"/models/0/model", "no.obj", R"(models[0].model is "no.obj", must be "gallery" or an existing file)"},
+        {"/models/0/scale", 0, "models[0].scale is 0, must be > 0"},
+        {"/models/0/translate", {1, 2}, "models[0].translate is [1,2], must be an array of 3 numbers"},
+        {"/models/0/instances", {"dog"}, R"(models[0].instances is ["dog"], must be of "triangle")"},
+        {"/models/0/units", "miles", R"(models[0].units is "miles", must be one of "m", "cm", "mm", "in", "ft")"},
+        {"/models/0/material", "skim", R"(models[0].material is "skim", must be a preset's name)"},
+        {"/models/0/material", {{"meanFreePath", {-1, 1, 1}}}, "models[0].material: meanFreePath[0] is -1"},
+        {"/models/0/materials",
+         {{"blue", "skin"}},
+         "models[0].materials.blue: the model has no such surface, only \"red\""},
+        {"/models/0/surface/roughness", 2, "models[0].surface.roughness is 2, must be 0 to 1"},
+        {"/environment/image", "no.hdr", R"(environment.image is "no.hdr", must be an existing .hdr or .exr file)"},
+        {"/metersPerUnit", 0, "metersPerUnit is 0, must be 1e-06 to 1000000"},
+        {"/lights", 3, "lights is 3, must be an array"},
+        {"/lights/0", 3, "lights[0] is 3, must be an object"},
+        {"/name", 3, "name is 3, must be a string"},
+    };
+    for (const auto& [pointer, value, sentence] : cases) {
+        Json json = everything();
+        json[Json::json_pointer(pointer)] = value;
+        EXPECT_TRUE(error(json).starts_with("scene.json: " + sentence)) << pointer << ": " << error(json);
+    }
+    for (const char* pointer : {"/models", "/models/0/model", "/lights/0/type", "/lights/0/direction",
+                                "/lights/0/position", "/cameras/0/position"}) {
+        Json json = everything();
+        const Json::json_pointer at(pointer);
+        json[at.parent_pointer()].erase(at.back());
+        EXPECT_NE(error(json).find(at.back() + " is missing"), std::string::npos) << error(json);
+    }
+}
+
+TEST_F(SceneFile, RefusesWhatIsNotItsJson) {
+    EXPECT_NE(error(std::string("{\"models\": [\n{\"model\": NaN}]}")).find("is not valid JSON: parse error at line 2"),
+              std::string::npos);
+    EXPECT_NE(error(std::string("{\"exposure\": 1e999}")).find("number overflow"), std::string::npos);
+    EXPECT_EQ(error(std::string("{\"name\": \"a\", \"name\": \"b\"}")), "scene.json: the key \"name\" is given twice");
+    EXPECT_EQ(error(std::string("[1]")), "scene.json: the scene is [1], must be an object");
+    EXPECT_EQ(error(std::string("")), "scene.json: is empty");
+    EXPECT_NE(error(std::string(100000, '[')), "");
+    const std::string whole = everything().dump();
+    for (std::size_t size = 0; size < whole.size(); size += 7) {
+        EXPECT_NE(error(whole.substr(0, size)), "") << size;
+    }
+}
+
+/// `{"$ref": …}` replaced by what it stands for.
+Json resolve(const Json& schema, Json part) {
+    while (part.contains("$ref") && part["$ref"].get<std::string>().starts_with("#/")) {
+        part = schema.at(Json::json_pointer(part["$ref"].get<std::string>().substr(1)));
+    }
+    return part;
+}
+
+class SceneSchema : public SceneFile {
+protected:
+    /// The keys that the reader lists for the object at `pointer`.
+    std::set<std::string> readersKeys(const Json::json_pointer& pointer) const {
+        Json json = everything();
+        json[pointer]["unheardOf"] = 1;
+        const std::string sentence = error(json);
+        const std::string marker = "unheardOf\" is unknown, there are ";
+        const std::size_t begin = sentence.find(marker);
+        EXPECT_NE(begin, std::string::npos) << sentence;
+        std::set<std::string> keys;
+        std::istringstream list(sentence.substr(begin + marker.size()));
+        for (std::string key; std::getline(list >> std::ws, key, ',');) {
+            keys.insert(key);
+        }
+        return keys;
+    }
+
+    void expectLimit(const Json::json_pointer& pointer, double value, bool accepted) const {
+        Json json = everything();
+        json[pointer] = value;
+        const std::string sentence = error(json);
+        const std::string limit = "must be "; // other complaints are about how values go together
+        const bool refused = sentence.find(limit) != std::string::npos &&
+                             sentence.find("beyond") == std::string::npos &&
+                             sentence.find("at most outer") == std::string::npos;
+        EXPECT_EQ(!refused, accepted) << pointer << " = " << value << ": " << sentence;
+    }
+
+    void compareNumber(const Json& limits, const Json::json_pointer& pointer) const {
+        const double high = limits.at("maximum");
+        expectLimit(pointer, high, true);
+        expectLimit(pointer, high * 1.01, false);
+        const bool excluded = limits.contains("exclusiveMinimum");
+        const double low = limits.at(excluded ? "exclusiveMinimum" : "minimum");
+        expectLimit(pointer, low, !excluded);
+        expectLimit(pointer, low - std::max(std::abs(low) * 0.01, 1e-7), false);
+    }
+
+    void compareValue(const Json& schema, const Json& part, const Json::json_pointer& pointer) const {
+        const Json resolved = resolve(schema, part);
+        const std::string type = resolved.value("type", "");
+        if (resolved.contains("anyOf")) { // a number or three, a material
+            if (resolved["anyOf"][0].value("type", "") == "number") {
+                compareNumber(resolved["anyOf"][0], pointer);
+            }
+        } else if (type == "object" && resolved.contains("properties")) {
+            compareObject(schema, resolved, pointer);
+        } else if (type == "array" && resolve(schema, resolved["items"]).value("type", "") == "object") {
+            compareObject(schema, resolve(schema, resolved["items"]), pointer / 0);
+        } else if (type == "array" && resolved["items"].value("type", "") == "number") {
+            compareNumber(resolved["items"], pointer / 0);
+        } else if (type == "number") {
+            compareNumber(resolved, pointer);
+        } else if (resolved.contains("enum")) {
+            for (const Json& choice : resolved["enum"]) {
+                Json json = everything();
+                json[pointer] = choice;
+                EXPECT_EQ(error(json), "") << choice;
+            }
+        }
+    }
+
+    void compareObject(const Json& schema, const Json& object, const Json::json_pointer& pointer) const {
+        EXPECT_FALSE(object.at("additionalProperties").get<bool>()) << pointer;
+        std::set<std::string> keys;
+        for (const auto& [key, part] : object.at("properties").items()) {
+            keys.insert(key);
+            EXPECT_TRUE(everything()[pointer].contains(key)) << pointer << " " << key;
+            compareValue(schema, part, pointer / key);
+        }
+        EXPECT_EQ(keys, readersKeys(pointer)) << pointer;
+    }
+};
+
+TEST_F(SceneSchema, HasTheKeysAndRangesOfTheReader) {
+    const Json schema = Json::parse(std::ifstream(NACRE_SOURCE_DIR "/docs/schemas/scene.schema.json"));
+    EXPECT_EQ(error(everything()), "");
+    compareObject(schema, schema, Json::json_pointer(""));
+}
+
+TEST(Scenes, ExamplesLoad) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(NACRE_SOURCE_DIR "/scenes")) {
+        const Scene scene = load(entry.path());
+        EXPECT_GT(triangleCount(scene), 0u);
+        EXPECT_FALSE(scene.materials.empty());
+    }
+}
+
+} // namespace
