@@ -47,13 +47,16 @@ void check(const scene::Scene& scene, const scene::Surface& surface) {
     }
 }
 
-shared::SurfaceConstants makeConstants(const scene::Surface& surface) {
+std::uint32_t makeFlags(const scene::Surface& surface) {
     const auto bit = [](std::uint32_t texture, std::uint32_t flag) { return texture == scene::none ? 0u : flag; };
-    const std::uint32_t flags = bit(surface.baseColorTexture, shared::hasBaseColorTexture) |
-                                bit(surface.normalTexture, shared::hasNormalTexture) |
-                                bit(surface.metallicRoughnessTexture, shared::hasMetallicRoughnessTexture) |
-                                bit(surface.thicknessTexture, shared::hasThicknessTexture) |
-                                (surface.doubleSided ? shared::isDoubleSided : 0u);
+    return bit(surface.baseColorTexture, shared::hasBaseColorTexture) |
+           bit(surface.normalTexture, shared::hasNormalTexture) |
+           bit(surface.metallicRoughnessTexture, shared::hasMetallicRoughnessTexture) |
+           bit(surface.thicknessTexture, shared::hasThicknessTexture) |
+           (surface.doubleSided ? shared::isDoubleSided : 0u);
+}
+
+shared::SurfaceConstants makeConstants(const scene::Surface& surface) {
     const float thickness = surface.thickness < 0 ? 0.0f : std::max(surface.thickness, smallestThickness);
     const glm::mat3 rows = glm::transpose(surface.uvTransform);
     return {.baseColor = surface.baseColor,
@@ -61,7 +64,7 @@ shared::SurfaceConstants makeConstants(const scene::Surface& surface) {
             .parameters = {surface.metallic, surface.roughness, surface.specular, surface.alphaCutoff},
             .uvTransformU = {rows[0], thickness},
             .uvTransformV = {rows[1], 0},
-            .flags = {flags, surface.material == scene::none ? 0u : surface.material + 1, 0, 0}};
+            .material = {surface.material == scene::none ? 0u : surface.material + 1, 0, 0, 0}};
 }
 
 template <typename T> std::span<const std::byte> bytes(const std::vector<T>& values) {
@@ -102,6 +105,7 @@ void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
                              .indexCount = static_cast<std::uint32_t>(mesh.indices.size()),
                              .vertexOffset = static_cast<std::int32_t>(positions.size()),
                              .surface = mesh.surface,
+                             .flags = makeFlags(surface),
                              .doubleSided = surface.doubleSided,
                              .alphaMask = surface.alphaMask});
         for (const scene::Vertex& vertex : mesh.vertices) {
@@ -203,8 +207,9 @@ void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::Pip
         commandBuffer.setCullMode(all ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         commandBuffer.setFrontFace(draw.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
         commandBuffer.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, *textureSets_[draw.surface], {});
-        const shared::DrawConstants constants{.worldFromObject = draw.worldFromObject,
-                                              .index = {draw.surface, shadowLayer, draw.mirrored ? 1u : 0u, 0u}};
+        const shared::DrawConstants constants{
+            .worldFromObject = draw.worldFromObject,
+            .index = {draw.surface, shadowLayer, draw.mirrored ? 1u : 0u, draw.flags}};
         commandBuffer.pushConstants<shared::DrawConstants>(
             layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         commandBuffer.drawIndexed(draw.indexCount, 1, draw.firstIndex, draw.vertexOffset, 0);

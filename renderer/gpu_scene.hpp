@@ -13,6 +13,7 @@ struct Draw {
     std::uint32_t indexCount = 0;
     std::int32_t vertexOffset = 0;
     std::uint32_t surface = 0;
+    std::uint32_t flags = 0; ///< shared::hasBaseColorTexture and the like
     glm::mat4 worldFromObject{1};
     bool mirrored = false; ///< the transform turns triangles inside out
     bool doubleSided = false;

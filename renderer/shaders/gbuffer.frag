@@ -20,48 +20,47 @@ layout(location = 5) out vec4 outEmission;
 layout(location = 6) out uint outMaterialId;
 layout(location = 7) out float outThickness;
 
-vec3 shadingNormal(SurfaceConstants surface, vec3 normal, vec2 uv) {
+vec3 shadingNormal(SurfaceConstants surface, vec3 normal) {
     vec3 tangent = inTangent.xyz - normal * dot(normal, inTangent.xyz);
     float tangentLength = length(tangent);
-    if ((surface.flags.x & hasNormalTexture) == 0u || tangentLength < 1e-12) {
+    if (!has(hasNormalTexture) || tangentLength < 1e-12) {
         return normal;
     }
     tangent /= tangentLength;
     vec3 bitangent = cross(normal, tangent) * inTangent.w;
-    vec3 detail = texture(normalTexture, uv).xyz * 2.0 - 1.0;
+    vec3 detail = texture(normalTexture, inUv).xyz * 2.0 - 1.0;
     detail.xy *= surface.emission.w;
     return normalize(tangent * detail.x + bitangent * detail.y + normal * max(detail.z, 1e-3));
 }
 
 void main() {
     SurfaceConstants surface = surfaces[draw.index.x];
-    vec2 uv = transformUv(surface, inUv);
-    vec4 color = baseColor(surface, uv);
+    vec4 color = baseColor(surface, inUv);
     if (alphaMask && color.a < surface.parameters.w) {
         discard;
     }
-    bool flip = (surface.flags.x & isDoubleSided) != 0u && !gl_FrontFacing;
+    bool flip = has(isDoubleSided) && !gl_FrontFacing;
     vec3 normal = normalize(inNormal) * (flip ? -1.0 : 1.0);
 
     float metallic = surface.parameters.x;
     float roughness = surface.parameters.y;
-    if ((surface.flags.x & hasMetallicRoughnessTexture) != 0u) {
-        vec4 texel = texture(metallicRoughnessTexture, uv);
+    if (has(hasMetallicRoughnessTexture)) {
+        vec4 texel = texture(metallicRoughnessTexture, inUv);
         metallic *= texel.b;
         roughness *= texel.g;
     }
     float thickness = surface.uvTransformU.w;
-    if (thickness > 0.0 && (surface.flags.x & hasThicknessTexture) != 0u) {
+    if (thickness > 0.0 && has(hasThicknessTexture)) {
         // A small positive value keeps an authored zero apart from "none".
-        thickness = max(thickness * texture(thicknessTexture, uv).g, 1e-3);
+        thickness = max(thickness * texture(thicknessTexture, inUv).g, 1e-3);
     }
 
     outDepth = inDepth;
-    outShadingNormal = vec4(shadingNormal(surface, normal, uv), 1.0);
+    outShadingNormal = vec4(shadingNormal(surface, normal), 1.0);
     outVertexNormal = vec4(normal, 1.0);
     outAlbedo = vec4(color.rgb * (1.0 - metallic), 1.0);
     outReflection = vec4(mix(vec3(0.08 * surface.parameters.z), color.rgb, metallic), roughness);
     outEmission = vec4(surface.emission.rgb, 1.0);
-    outMaterialId = surface.flags.y;
+    outMaterialId = surface.material.x;
     outThickness = thickness;
 }

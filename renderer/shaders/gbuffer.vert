@@ -5,9 +5,7 @@
 layout(set = 0, binding = 0, std140) uniform View {
     ViewConstants view;
 };
-layout(push_constant, std430) uniform Push {
-    DrawConstants draw;
-};
+#include "draw.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
@@ -27,7 +25,7 @@ void main() {
     float side = draw.index.z != 0u ? -1.0 : 1.0;
     outNormal = normalize(side * (cofactors * normal));
     outTangent = vec4(linear * tangent.xyz, tangent.w * side);
-    outUv = uv;
+    outUv = transformUv(uv);
     outDepth = dot(view.viewRow, world);
     gl_Position = view.clipFromWorld * world;
 }

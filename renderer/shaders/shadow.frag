@@ -16,7 +16,7 @@ layout(location = 0) out float outDepth;
 void main() {
 #ifdef ALPHA_MASK
     SurfaceConstants surface = surfaces[draw.index.x];
-    if (baseColor(surface, transformUv(surface, inUv)).a < surface.parameters.w) {
+    if (baseColor(surface, inUv).a < surface.parameters.w) {
         discard;
     }
 #endif

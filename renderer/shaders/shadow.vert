@@ -5,9 +5,7 @@
 layout(set = 0, binding = 0, std430) readonly buffer Layers {
     ShadowLayer layers[];
 };
-layout(push_constant, std430) uniform Push {
-    DrawConstants draw;
-};
+#include "draw.glsl"
 
 layout(location = 0) in vec3 position;
 #ifdef ALPHA_MASK
@@ -21,7 +19,7 @@ void main() {
     vec4 world = draw.worldFromObject * vec4(position, 1.0);
     outFromOrigin = world.xyz - layer.origin.xyz;
 #ifdef ALPHA_MASK
-    outUv = uv;
+    outUv = transformUv(uv);
 #endif
     gl_Position = layer.clipFromWorld * world;
 }

@@ -18,7 +18,7 @@ NACRE_CONSTANT groupSize = 8;
 
 NACRE_CONSTANT noShadow = 0xffffffffu;
 
-/// SurfaceConstants::flags.x
+/// DrawConstants::index.w
 NACRE_CONSTANT hasBaseColorTexture = 1;
 NACRE_CONSTANT hasNormalTexture = 2;
 NACRE_CONSTANT hasMetallicRoughnessTexture = 4;
@@ -49,13 +49,13 @@ struct SurfaceConstants {
     vec4 parameters;   ///< metallic, roughness, specular, alpha cutoff
     vec4 uvTransformU; ///< dot with vec3(uv, 1) is the transformed u; w: authored thickness, mm, 0 = none
     vec4 uvTransformV; ///< the same for v
-    uvec4 flags;       ///< x: bits above, y: material id
+    uvec4 material;    ///< x: material id
 };
 
 /// What one draw pushes.
 struct DrawConstants {
     mat4 worldFromObject;
-    uvec4 index; ///< x: surface, y: shadow layer, z: 1 when the transform mirrors
+    uvec4 index; ///< x: surface, y: shadow layer, z: 1 when the transform mirrors, w: flags above
 };
 
 /// One light and how to read its shadow map.

@@ -12,11 +12,10 @@ layout(set = 1, binding = 1) uniform sampler2D normalTexture;
 layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 3) uniform sampler2D thicknessTexture;
 
-vec2 transformUv(SurfaceConstants surface, vec2 uv) {
-    return vec2(dot(surface.uvTransformU.xyz, vec3(uv, 1.0)), dot(surface.uvTransformV.xyz, vec3(uv, 1.0)));
+bool has(uint flag) {
+    return (draw.index.w & flag) != 0u;
 }
 
 vec4 baseColor(SurfaceConstants surface, vec2 uv) {
-    bool textured = (surface.flags.x & hasBaseColorTexture) != 0u;
-    return textured ? surface.baseColor * texture(baseColorTexture, uv) : surface.baseColor;
+    return has(hasBaseColorTexture) ? surface.baseColor * texture(baseColorTexture, uv) : surface.baseColor;
 }
