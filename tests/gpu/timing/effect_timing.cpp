@@ -95,10 +95,11 @@ void setPlaneIds(ScatterInput& input, const Subject& subject) {
     }
 }
 
+// All but `brute`; `bank` first.
 std::vector<NacreTechnique> realTimeTechniques() {
-    std::vector<NacreTechnique> techniques;
+    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
     for (int i = 1; std::string(nacreTechniqueString(static_cast<NacreTechnique>(i))) != "unknown"; ++i) {
-        if (i != NACRE_TECHNIQUE_BRUTE) {
+        if (i != NACRE_TECHNIQUE_BRUTE && i != NACRE_TECHNIQUE_BANK) {
             techniques.push_back(static_cast<NacreTechnique>(i));
         }
     }
