@@ -151,7 +151,7 @@ void limitResources(const ImportLimits& limits) {
     std::ifstream("/proc/self/statm") >> pages;
     const rlim_t memory = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + limits.bytes;
     const rlimit memoryLimit{memory, memory};
-    const rlimit timeLimit{limits.seconds, limits.seconds};
+    const rlimit timeLimit{limits.seconds, limits.seconds + 1}; // the first ends it with SIGXCPU
     const rlimit noCoreFile{0, 0};
     ::setrlimit(RLIMIT_AS, &memoryLimit);
     ::setrlimit(RLIMIT_CPU, &timeLimit);
