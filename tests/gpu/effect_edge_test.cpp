@@ -34,7 +34,9 @@ protected:
     void checkBrute(const Material& material) {
         double millimetresPerPixel = 0;
         const ScatterInput input = edgeScene(material, GetParam(), millimetresPerPixel);
-        Effect effect(gpu, gpu.contextInfo(input.extent));
+        NacreContextInfo info = gpu.contextInfo(input.extent);
+        info.techniques = 1u << NACRE_TECHNIQUE_BRUTE;
+        Effect effect(gpu, info);
         effect.setMaterials({&material, 1});
         const std::vector<Float4> result = effect.scatter(input, NACRE_TECHNIQUE_BRUTE);
         const auto profile = makeProfile(material);

@@ -150,7 +150,9 @@ protected:
         ScatterImages images(gpu, input);
         GpuImage thickness = gpu.createImage(
             {.format = VK_FORMAT_R32_SFLOAT, .extent = input.extent, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
-        Effect effect(gpu, gpu.contextInfo(input.extent));
+        NacreContextInfo context = gpu.contextInfo(input.extent);
+        context.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
+        Effect effect(gpu, context);
         EXPECT_EQ(nacreSetMaterials(effect.context, 1, 1, &material), NACRE_SUCCESS);
         EXPECT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
         NacreTransmitInfo info{};

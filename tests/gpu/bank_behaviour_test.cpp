@@ -1,0 +1,182 @@
+// What technique `bank` owes beyond its error: energy, stillness in motion, no leaks at any level of the pyramid.
+#include "tests/gpu/support/scene_input.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace nacre::tests {
+namespace {
+
+class BankBehaviourTest : public GpuTest {
+protected:
+    std::unique_ptr<Effect> makeEffect(const ScatterScene& scene) {
+        NacreContextInfo info = gpu.contextInfo({512, 512});
+        info.techniques = 1u << NACRE_TECHNIQUE_BANK;
+        auto effect = std::make_unique<Effect>(gpu, info);
+        effect->setMaterials(scene.materials);
+        return effect;
+    }
+    std::vector<Float4> scatter(Effect& effect, const ScatterScene& scene) {
+        return effect.scatter(toInput(scene), NACRE_TECHNIQUE_BANK);
+    }
+};
+
+double decibels(double squares, double count) {
+    return -10 * std::log10(squares / count + 1e-12);
+}
+
+// A plane of one material with lit discs far from the border: as much light leaves as enters.
+TEST_F(BankBehaviourTest, LightIsNeitherLostNorMade) {
+    for (const Material& material : testMaterials()) {
+        for (const double footprint : {4.0, 20.0, 60.0}) {
+            ScatterScene scene =
+                makeScatterScene({.footprint = footprint, .width = 420, .height = 400, .materials = {material}});
+            double entering[3] = {};
+            for (int y = 0; y < scene.height; ++y) {
+                for (int x = 0; x < scene.width; ++x) {
+                    const bool lit = std::hypot(x - 201.3, y - 195.7) < 25 || std::hypot(x - 240.2, y - 211.1) < 3;
+                    const std::size_t i = scene.index(x, y);
+                    scene.materialId[i] = 1;
+                    scene.irradiance[i] = lit ? Rgb{1, 0.7, 0.3} : Rgb{};
+                    for (int channel = 0; channel < 3; ++channel) {
+                        entering[channel] += scene.irradiance[i][channel];
+                    }
+                }
+            }
+            const auto effect = makeEffect(scene);
+            double leaving[3] = {};
+            for (const Float4& pixel : scatter(*effect, scene)) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    leaving[channel] += pixel[channel];
+                }
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                EXPECT_NEAR(leaving[channel] / entering[channel], 1, 5e-3)
+                    << material.name << " at " << footprint << " px, channel " << channel;
+            }
+        }
+    }
+}
+
+// Every kind of edge, every level in use, neighbours a million times as bright.
+TEST_F(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels) {
+    for (const SceneKind kind : allSceneKinds) {
+        for (const double footprint : {4.0, 60.0}) {
+            ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .width = 192, .height = 108});
+            for (std::size_t i = 0; i < scene.irradiance.size(); ++i) {
+                scene.irradiance[i] = scene.materialId[i] != 0 ? Rgb{0.5, 0.05, 5} : Rgb{5e5, 5e5, 5e5};
+            }
+            const std::vector<Float4> result = scatter(*makeEffect(scene), scene);
+            double largest = 0;
+            for (std::size_t i = 0; i < result.size(); ++i) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    const double expected = scene.irradiance[i][channel];
+                    const double deviation = std::abs(result[i][channel] - expected) / expected;
+                    largest = std::max(largest, deviation);
+                }
+            }
+            std::printf("%-10s constant within %.5f\n", scene.name.c_str(), largest);
+            EXPECT_LE(largest, 1e-3) << scene.name;
+        }
+    }
+}
+
+// The picture of a scene that moves by whole pixels against the pyramid's grid stays the same picture.
+TEST_F(BankBehaviourTest, MovingByPixelsChangesLittle) {
+    for (const SceneKind kind : allSceneKinds) {
+        for (const double footprint : {20.0, 60.0}) {
+            const int margin = static_cast<int>(1.2 * footprint) + 10;
+            std::vector<ScatterScene> scenes;
+            std::vector<std::vector<Float4>> pictures;
+            double worst = 1e9;
+            const auto effect = makeEffect(makeScatterScene({.width = 8, .height = 8}));
+            for (int shift = 0; shift <= 7; ++shift) {
+                scenes.push_back(makeScatterScene(
+                    {.kind = kind, .footprint = footprint, .width = 288, .height = 224, .shift = double(shift)}));
+                pictures.push_back(scatter(*effect, scenes.back()));
+                if (shift == 0) {
+                    continue;
+                }
+                double squares = 0;
+                double count = 0;
+                for (int y = margin; y + 1 < scenes[0].height - margin; ++y) {
+                    for (int x = margin; x + 1 < scenes[0].width - margin; ++x) {
+                        const std::size_t now = scenes[0].index(x, y);
+                        const std::size_t before = scenes[0].index(x + 1, y + 1);
+                        for (int channel = 0; scenes[shift].materialId[now] != 0 && channel < 3; ++channel) {
+                            const double change = pictures[shift][now][channel] - pictures[shift - 1][before][channel];
+                            squares += change * change;
+                            ++count;
+                        }
+                    }
+                }
+                worst = std::min(worst, decibels(squares, count));
+            }
+            std::printf("%-10s worst of seven steps of one pixel %.1f dB\n", scenes[0].name.c_str(), worst);
+            EXPECT_GE(worst, 50) << scenes[0].name;
+        }
+    }
+}
+
+// A slow zoom by 1/64 octave a frame, over four bins of the table: from frame to frame the picture changes steadily.
+// The second difference is what a bin's border would show in.
+TEST_F(BankBehaviourTest, ZoomingDoesNotPop) {
+    constexpr int frames = 33;
+    std::vector<std::vector<Float4>> pictures;
+    ScatterScene scene = makeScatterScene({.footprint = 16, .width = 160, .height = 96});
+    const auto effect = makeEffect(scene);
+    double change = 0;
+    double jump = 0;
+    double count = 0;
+    for (int frame = 0; frame < frames; ++frame) {
+        ScatterScene now = makeScatterScene({.footprint = 16, .width = 160, .height = 96});
+        for (double& depth : now.depth) {
+            depth *= std::exp2(-frame / 64.0);
+        }
+        pictures.push_back(effect->scatter(toInput(now), NACRE_TECHNIQUE_BANK));
+        for (std::size_t i = 0; frame >= 2 && i < pictures[0].size(); ++i) {
+            for (int channel = 0; channel < 3; ++channel) {
+                const double last = pictures[frame][i][channel];
+                const double middle = pictures[frame - 1][i][channel];
+                const double first = pictures[frame - 2][i][channel];
+                change += (last - middle) * (last - middle);
+                jump += (last - 2 * middle + first) * (last - 2 * middle + first);
+                ++count;
+            }
+        }
+    }
+    std::printf("change from frame to frame %.1f dB, of the change %.1f dB\n", decibels(change, count),
+                decibels(jump, count));
+    EXPECT_GE(decibels(jump, count), 65);
+}
+
+// Not a number, infinite and absurd inputs stay where they are; so does a pixel far from everything.
+TEST_F(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const ScatterScene scene = makeScatterScene({.footprint = 20, .width = 200, .height = 120});
+    const auto effect = makeEffect(scene);
+    ScatterInput input = toInput(scene);
+    input.irradiance[scene.index(50, 60)] = {nan, 1, 1, 1};
+    input.irradiance[scene.index(51, 60)] = {infinity, 1, 1, 1};
+    input.irradiance[scene.index(52, 60)] = {1, -infinity, 1, 1};
+    input.irradiance[scene.index(53, 60)] = {1, 1, 3e38f, 1};
+    input.depth[scene.index(54, 60)] = nan;
+    input.depth[scene.index(55, 60)] = infinity;
+    input.depth[scene.index(56, 60)] = 0;
+    input.depth[scene.index(57, 60)] = -5;
+    const std::vector<Float4> result = effect->scatter(input, NACRE_TECHNIQUE_BANK);
+    for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+            if (std::abs(y - 60) > 0 || x < 50 || x > 57) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    ASSERT_TRUE(std::isfinite(result[scene.index(x, y)][channel])) << x << ", " << y;
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace nacre::tests
