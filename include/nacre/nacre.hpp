@@ -3,6 +3,7 @@
 
 #include "nacre/nacre.h"
 
+#include <cstdint>
 #include <span>
 #include <utility>
 

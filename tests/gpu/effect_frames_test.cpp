@@ -1,4 +1,5 @@
 // Frames in flight, views, material updates, resizing, timestamps and several contexts.
+#include "nacre/nacre.hpp"
 #include "tests/gpu/support/effect.hpp"
 
 #include <cmath>
@@ -133,6 +134,26 @@ TEST_F(FramesTest, ContextsAreIndependent) {
     b.setMaterials({&second, 1});
     EXPECT_EQ(a.scatter(input_, NACRE_TECHNIQUE_SEPARABLE), alone(first));
     EXPECT_EQ(b.scatter(input_, NACRE_TECHNIQUE_SEPARABLE), alone(second));
+}
+
+TEST_F(FramesTest, TheWrapperOwnsItsContext) {
+    std::vector<NacreLayer> storage;
+    const NacreMaterial material = toNacre(wide(1), storage);
+    Context context;
+    ASSERT_EQ(Context::create(info(), context), NACRE_SUCCESS);
+    Context moved = std::move(context);
+    EXPECT_FALSE(context);
+    ASSERT_TRUE(moved);
+    ASSERT_EQ(moved.setMaterials(1, {&material, 1}), NACRE_SUCCESS);
+    ASSERT_EQ(moved.beginFrame(0), NACRE_SUCCESS);
+    ScatterImages target = images();
+    gpu.run(
+        [&](VkCommandBuffer commandBuffer) { EXPECT_EQ(moved.cmdScatter(commandBuffer, target.info), NACRE_SUCCESS); });
+    EXPECT_EQ(gpu.download<Float4>(target.scattered), alone(wide(1)));
+    NacreContextInfo wrong = info();
+    wrong.headerVersion = 0;
+    EXPECT_EQ(Context::create(wrong, moved), NACRE_ERROR_VERSION_MISMATCH);
+    EXPECT_TRUE(moved) << "a failure keeps the old context";
 }
 
 TEST_F(FramesTest, EveryPassIsTimed) {
