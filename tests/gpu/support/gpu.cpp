@@ -175,6 +175,9 @@ std::uint32_t Gpu::memoryType(std::uint32_t bits, VkMemoryPropertyFlags wanted) 
             return i;
         }
     }
+    if (wanted == VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) {
+        return memoryType(bits, 0);
+    }
     throw std::runtime_error("no memory type");
 }
 
@@ -221,7 +224,7 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     vkGetImageMemoryRequirements(device, result.image, &requirements);
     VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocation.allocationSize = requirements.size;
-    allocation.memoryTypeIndex = memoryType(requirements.memoryTypeBits, 0);
+    allocation.memoryTypeIndex = memoryType(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(vkAllocateMemory(device, &allocation, nullptr, &result.memory), "vkAllocateMemory");
     check(vkBindImageMemory(device, result.image, result.memory, 0), "vkBindImageMemory");
     VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
