@@ -25,6 +25,8 @@ public:
     const Buffer& constants() const { return constants_; }
     /// Linear, wraps around in longitude.
     const vk::raii::Sampler& sampler() const { return sampler_; }
+    /// Linear, for reflectance().
+    const vk::raii::Sampler& clampSampler() const { return clampSampler_; }
 
 private:
     void uploadRadiance(Gpu& gpu, const scene::FloatImage& image);
@@ -35,6 +37,7 @@ private:
     Image reflectance_;
     Buffer constants_;
     vk::raii::Sampler sampler_ = nullptr;
+    vk::raii::Sampler clampSampler_ = nullptr;
 };
 
 /// The built-in sky as an equirectangular image: zenith over horizon over ground.

@@ -64,7 +64,7 @@ Lighting::Lighting(Gpu& gpu, const Inputs& inputs, const std::vector<shared::Lig
          pixels(GBuffer::Reflection), pixels(GBuffer::MaterialId),
          sampled(inputs.occlusion.visibility(), inputs.nearest), sampled(inputs.shadowMaps.image(), inputs.nearest),
          sampled(environment.specular(), environment.sampler()),
-         sampled(environment.reflectance(), environment.sampler()), written(irradiance_), written(specular_)},
+         sampled(environment.reflectance(), environment.clampSampler()), written(irradiance_), written(specular_)},
         sizeof lightCount_);
 }
 

@@ -24,6 +24,9 @@ const uint sliceCount = 2u;
 const uint stepCount = 6u;
 /// Share of the picture's height that the search covers at most: beyond, steps would skip whole bodies.
 const float largestRadius = 0.15;
+/// Cosine by which something must rise above the horizon to count: steps end on pixels beside their slice, where a flat
+/// surface would otherwise seem to rise.
+const float tolerance = 0.03;
 
 /// Cosine-weighted light between the normal and the horizon at angle h, for a normal at angle n in the slice.
 float arc(float h, float n) {
@@ -42,7 +45,7 @@ float horizon(ivec2 pixel, vec3 position, vec3 toView, vec2 direction, float rad
         vec3 offset = worldPosition(at, texelFetch(depthImage, at, 0).r) - position;
         float distance = length(offset);
         float fade = clamp(2.0 - 2.0 * distance / radius, 0.0, 1.0);
-        highest = max(highest, mix(start, dot(offset, toView) / max(distance, 1e-20), fade));
+        highest = max(highest, mix(start, dot(offset, toView) / max(distance, 1e-20) - tolerance, fade));
     }
     return highest;
 }

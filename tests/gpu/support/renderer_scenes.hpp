@@ -133,7 +133,12 @@ inline scene::Light point(const glm::vec3& position, float intensity = 1) {
 
 /// 160 by 90 pixels, small shadow maps, no effect.
 inline renderer::RenderSettings plainSettings() {
-    return {.width = 160, .height = 90, .shadowMapSize = 512, .scatter = false, .transmit = false};
+    renderer::RenderSettings settings;
+    settings.width = 160;
+    settings.height = 90;
+    settings.shadowMapSize = 512;
+    settings.scatter = settings.transmit = false;
+    return settings;
 }
 
 inline float at(const renderer::Pixels& pixels, std::uint32_t x, std::uint32_t y, std::size_t channel = 0) {
