@@ -1,6 +1,8 @@
 #include "scene/assimp_import.hpp"
 
+#include "scene/assimp_axes.hpp"
 #include "scene/assimp_material.hpp"
+#include "scene/file.hpp"
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
 
@@ -44,7 +46,7 @@ public:
 
     void run() {
         if (source_.mRootNode != nullptr) {
-            addNode(*source_.mRootNode, glm::mat4(1), 0);
+            addNode(*source_.mRootNode, axes(), 0);
         }
         if (scene_.instances.empty()) {
             throw SceneError(name_ + ": has no triangles");
@@ -59,6 +61,15 @@ public:
     }
 
 private:
+    /// Undoes what Assimp does to every 3DS file, turning Z to Y, where Y is up already.
+    glm::mat4 axes() {
+        if (extension_ != ".3ds" || hasStudioAxes(readFile(name_))) {
+            return glm::mat4(1);
+        }
+        scene_.notes.push_back(name_ + ": was not written by 3D Studio; its y axis is taken for up");
+        return {glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0), glm::vec4(0, 0, 0, 1)};
+    }
+
     void addNode(const aiNode& node, const glm::mat4& parent, int depth) {
         if (depth > maxDepth) {
             throw SceneError(name_ + ": its nodes are nested more than " + std::to_string(maxDepth) + " deep");

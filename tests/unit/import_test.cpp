@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <numbers>
 #include <random>
@@ -150,6 +151,30 @@ TEST_F(Import, TakesASensibleUnitWhereNoneIsStated) {
         EXPECT_DOUBLE_EQ(scene.metersPerUnit, metres);
         EXPECT_EQ(scene.notes.empty(), metres == 1);
     }
+}
+
+std::string chunk(std::uint16_t identifier, const std::string& content) {
+    const auto length = static_cast<std::uint32_t>(content.size() + 6);
+    std::string result(6, '\0');
+    std::memcpy(result.data(), &identifier, 2);
+    std::memcpy(result.data() + 2, &length, 4);
+    return result + content;
+}
+
+TEST_F(Import, Turns3dsUprightWhereItsZIsUp) {
+    const float positions[]{0, 0, 0, 1, 0, 0, 0, 0, 5};
+    const std::uint16_t face[]{0, 1, 2, 0};
+    const auto raw = [](const auto& values) {
+        return std::string(reinterpret_cast<const char*>(values), sizeof(values));
+    };
+    const std::string mesh =
+        chunk(0x4110, std::string("\3\0", 2) + raw(positions)) + chunk(0x4120, std::string("\1\0", 2) + raw(face));
+    const std::string object = chunk(0x4000, std::string("m\0", 2) + chunk(0x4100, mesh));
+    const std::string version = chunk(0x3d3e, std::string("\3\0\0\0", 4));
+    const Bounds studio = bounds(loadModel(store("studio.3ds", chunk(0x4d4d, chunk(0x3d3d, version + object)))));
+    EXPECT_NEAR(studio.high.y, 5, 1e-5);
+    const Bounds other = bounds(loadModel(store("other.3ds", chunk(0x4d4d, chunk(0x3d3d, object)))));
+    EXPECT_NEAR(other.high.z, 5, 1e-5);
 }
 
 TEST_F(Import, NamesTheMissingTexture) {
