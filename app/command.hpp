@@ -22,6 +22,7 @@ struct UsageError : std::runtime_error {
 void addRender(CLI::App& app);
 void addMaterial(CLI::App& app);
 void addDevices(CLI::App& app);
+void addBench(CLI::App& app);
 
 /// Throws std::runtime_error, naming the file, where `file` cannot be written: its folder is missing or not writable,
 /// or it is a folder itself. "-" is standard output. Leaves nothing behind.

@@ -67,6 +67,7 @@ int main(int argumentCount, char** arguments) {
         nacre::app::addRender(app);
         nacre::app::addMaterial(app);
         nacre::app::addDevices(app);
+        nacre::app::addBench(app);
         return run(app, argumentCount, arguments);
     } catch (const nacre::app::UsageError& error) {
         return complain(error.what(), wrongUsage);

@@ -66,27 +66,6 @@ template <typename Item> std::string listNames(const std::vector<Item>& items) {
     return result.empty() ? "none" : result;
 }
 
-void chooseLights(const RenderOptions& options, Scene& scene) {
-    if (options.lights.empty()) {
-        return;
-    }
-    const Camera camera = makeCamera(options, scene);
-    std::vector<Light> chosen;
-    for (const std::string& name : options.lights) {
-        if (const std::optional<Side> side = sideNamed(name)) {
-            std::ranges::copy(someLightsOn(*side, scene, camera), std::back_inserter(chosen));
-            continue;
-        }
-        const auto light = std::ranges::find(scene.lights, name, &Light::name);
-        if (light == scene.lights.end()) {
-            throw std::runtime_error(sceneName(options) + ": has no light '" + name + "', only " +
-                                     listNames(scene.lights));
-        }
-        chosen.push_back(*light);
-    }
-    scene.lights = std::move(chosen);
-}
-
 std::optional<std::size_t> parseIndex(const std::string& text) {
     if (text.empty() || text.size() > 6 || !std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; })) {
         return std::nullopt;
@@ -111,6 +90,27 @@ Camera findCamera(const RenderOptions& options, const Scene& scene) {
 }
 
 } // namespace
+
+void chooseLights(const RenderOptions& options, Scene& scene) {
+    if (options.lights.empty()) {
+        return;
+    }
+    const Camera camera = makeCamera(options, scene);
+    std::vector<Light> chosen;
+    for (const std::string& name : options.lights) {
+        if (const std::optional<Side> side = sideNamed(name)) {
+            std::ranges::copy(someLightsOn(*side, scene, camera), std::back_inserter(chosen));
+            continue;
+        }
+        const auto light = std::ranges::find(scene.lights, name, &Light::name);
+        if (light == scene.lights.end()) {
+            throw std::runtime_error(sceneName(options) + ": has no light '" + name + "', only " +
+                                     listNames(scene.lights));
+        }
+        chosen.push_back(*light);
+    }
+    scene.lights = std::move(chosen);
+}
 
 std::string sceneName(const RenderOptions& options) {
     return options.input.empty() ? "gallery" : options.input.string();

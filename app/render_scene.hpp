@@ -13,6 +13,10 @@ std::string sceneName(const RenderOptions& options);
 /// Throws UsageError, scene::SceneError or std::runtime_error with one sentence.
 scene::Scene makeScene(const RenderOptions& options);
 
+/// Leaves the scene the lights that --light asks for, and puts in what it lacks on a side. Throws std::runtime_error
+/// naming a light that the scene does not have.
+void chooseLights(const RenderOptions& options, scene::Scene& scene);
+
 /// --camera, then --camera-position, --camera-target and --fov on top of it.
 /// Throws std::runtime_error when the scene has no such camera or the camera looks nowhere.
 scene::Camera makeCamera(const RenderOptions& options, const scene::Scene& scene);

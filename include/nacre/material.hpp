@@ -37,6 +37,8 @@ struct Material {
     Rgb albedo{0.8, 0.8, 0.8};
     double roughness = 0.5; ///< [0, 1] GGX perceptual roughness
     double specular = 0.5;  ///< [0, 1] F0 = 0.08·specular; 0.5 is an index of refraction of 1.5
+
+    bool operator==(const Material&) const = default;
 };
 
 /// The material's profile with `scale` applied. Throws std::invalid_argument naming the field when it has none.

@@ -1,0 +1,122 @@
+// `nacre bench`: the suites, and what can be done with their results.
+#include "app/command.hpp"
+
+#include "app/bench/conclusion.hpp"
+#include "app/bench/diff.hpp"
+#include "app/bench/report.hpp"
+#include "app/bench/results.hpp"
+#include "app/bench/run.hpp"
+#include "app/bench/suites.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+namespace nacre::app {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+struct Suite {
+    const char* name;
+    const char* help;
+    bench::Plan (*plan)(const bench::SuiteSettings& settings);
+};
+
+constexpr Suite suites[] = {
+    {"thesis", "The thesis's three experiments: time against radius and layers", bench::makeThesisPlan},
+    {"sweep", "Time against resolution, coverage, footprint, materials, layers, lights and triangles",
+     bench::makeSweepPlan},
+    {"pareto", "Error against time, of every technique at every quality", bench::makeParetoPlan}};
+
+struct SuiteOptions {
+    bench::SuiteSettings suite;
+    renderer::DeviceSettings device;
+    Path folder;
+};
+
+void makeFolder(const Path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
+    }
+    checkWritable(folder / "results.json");
+}
+
+void writeAll(const bench::Results& results, const Path& folder) {
+    writeText(folder / "results.json", bench::formatResults(results));
+    writeText(folder / "results.csv", bench::formatCsv(results));
+    writeText(folder / "report.html", bench::formatReport(results, folder));
+}
+
+void runSuite(const Suite& suite, const SuiteOptions& options) {
+    const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+    makeFolder(options.folder);
+    renderer::Device device(options.device);
+    say("making the scenes");
+    const bench::Plan plan = suite.plan(options.suite);
+    const bench::Results results = bench::runPlan(device, plan, options.suite.quick, options.folder, say);
+    writeAll(results, options.folder);
+    std::cout << bench::conclude(results) << '\n' << (options.folder / "report.html").string() << '\n';
+}
+
+void addSuite(CLI::App& bench, const Suite& suite) {
+    CLI::App* command = bench.add_subcommand(suite.name, suite.help);
+    const auto options = std::make_shared<SuiteOptions>();
+    options->folder = std::string("nacre-bench-") + suite.name;
+    command->add_flag("--quick", options->suite.quick, "Smaller pictures and fewer frames: minutes without a GPU");
+    command->add_option("--scene", options->suite.scene, "A model or scene file in place of the gallery")
+        ->type_name("FILE");
+    command
+        ->add_option("-o,--output", options->folder, "Where to leave the results; default " + options->folder.string())
+        ->type_name("FOLDER");
+    command->add_option("--device", options->device.name, "The number or a part of the name of a Vulkan device")
+        ->type_name("NAME");
+    command->callback([&suite, options] { runSuite(suite, *options); });
+}
+
+void addDiff(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand("diff", "What got slower or less accurate between two runs");
+    command->footer("Ends with 1 when anything did, beyond the noise floor that the runs state.");
+    const auto files = std::make_shared<std::pair<Path, Path>>();
+    command->add_option("OLD", files->first, "results.json of the earlier run")->required();
+    command->add_option("NEW", files->second, "results.json of the later run")->required();
+    command->callback([files] {
+        const bench::Comparison comparison =
+            bench::compare(bench::loadResults(files->first), bench::loadResults(files->second));
+        std::cout << bench::formatComparison(comparison) << std::flush;
+        if (comparison.regressed()) {
+            throw std::runtime_error(files->second.string() + ": slower or less accurate than " +
+                                     files->first.string());
+        }
+    });
+}
+
+void addReport(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand("report", "Write the report and the table of a results.json again");
+    const auto file = std::make_shared<Path>();
+    command->add_option("RESULTS", *file, "results.json, its pictures beside it")->required();
+    command->callback([file] {
+        const Path folder = file->has_parent_path() ? file->parent_path() : ".";
+        const bench::Results results = bench::loadResults(*file);
+        writeText(folder / "results.csv", bench::formatCsv(results));
+        writeText(folder / "report.html", bench::formatReport(results, folder));
+        std::cout << bench::conclude(results) << '\n';
+    });
+}
+
+} // namespace
+
+void addBench(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "Measure the techniques, and compare measurements");
+    command->require_subcommand(1);
+    for (const Suite& suite : suites) {
+        addSuite(*command, suite);
+    }
+    addDiff(*command);
+    addReport(*command);
+}
+
+} // namespace nacre::app

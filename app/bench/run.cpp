@@ -1,0 +1,122 @@
+#include "app/bench/run.hpp"
+
+#include "app/bench/fits.hpp"
+#include "app/bench/machine.hpp"
+#include "app/bench/stage.hpp"
+#include "commit.h"
+#include "scene/image.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <thread>
+
+namespace nacre::bench {
+namespace {
+
+/// What a suite may take before no series begins another round.
+constexpr double secondsOfSuite = 240;
+constexpr std::uint32_t pictureShadowMapSize = 2048;
+
+HarnessSettings settingsFor(const Plan& plan, bool quick) {
+    HarnessSettings settings;
+    if (quick) {
+        settings = {.warmUpFrames = 1, .rounds = 7, .framesPerTurn = 1, .settle = false, .wholeFrameRounds = 1};
+    }
+    settings.secondsPerSeries = secondsOfSuite / static_cast<double>(std::max<std::size_t>(1, plan.series.size()));
+    return settings;
+}
+
+std::string now() {
+    const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&time));
+    return text;
+}
+
+Machine describe(const renderer::DeviceDescription& device) {
+    return {.device = device.name,
+            .kind = device.kind,
+            .driver = device.driver,
+            .apiVersion = device.apiVersion,
+            .processor = processorName(),
+            .threads = std::thread::hardware_concurrency(),
+            .clocks = {}};
+}
+
+void writePicture(const std::filesystem::path& file, const renderer::Pixels& pixels) {
+    std::vector<std::uint8_t> bytes(pixels.values.size());
+    std::transform(pixels.values.begin(), pixels.values.end(), bytes.begin(), [](float value) {
+        return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+    });
+    scene::writePng(file, pixels.width, pixels.height, static_cast<int>(pixels.channels.size()), bytes);
+}
+
+ImagePair render(Stage& stage, const Picture& picture, const std::filesystem::path& folder) {
+    Configuration configuration{.effect = picture.before,
+                                .view = picture.view,
+                                .size = picture.size,
+                                .shadowMapSize = pictureShadowMapSize,
+                                .materials = picture.materials};
+    const auto renderTo = [&](const Configuration& which, const std::string& file) {
+        stage.select(which);
+        stage.renderFrame();
+        writePicture(folder / file, stage.read(renderer::Output::Color));
+        return file;
+    };
+    Configuration after = configuration;
+    after.effect = picture.after;
+    const std::string beforeFile = renderTo(configuration, picture.name + "-off.png");
+    const std::string afterFile = renderTo(after, picture.name + "-on.png");
+    return {picture.series, picture.title, picture.beforeText, beforeFile, picture.afterText, afterFile};
+}
+
+std::vector<ImagePair> renderPictures(renderer::Device& device, const Plan& plan, const std::filesystem::path& folder,
+                                      const Reporter& say) {
+    std::vector<ImagePair> pairs;
+    for (const Picture& picture : plan.pictures) {
+        say("picture " + std::to_string(pairs.size() + 1) + " of " + std::to_string(plan.pictures.size()));
+        Stage stage(device);
+        pairs.push_back(render(stage, picture, folder));
+    }
+    return pairs;
+}
+
+} // namespace
+
+Results runPlan(renderer::Device& device, const Plan& plan, bool quick, const std::filesystem::path& folder,
+                const Reporter& say) {
+    const auto begin = std::chrono::steady_clock::now();
+    const HarnessSettings settings = settingsFor(plan, quick);
+    const renderer::DeviceDescription& description = device.description();
+    const auto clocks = [&] { return readClocks(description.name, description.kind == "software"); };
+    Results results{.suite = plan.suite,
+                    .nacreVersion = NACRE_VERSION,
+                    .commit = std::string(commit),
+                    .scene = plan.scene,
+                    .machine = describe(description)};
+    for (const Series& series : plan.series) {
+        SeriesResult result = measure(device, series, settings, say);
+        std::move(result.measurements.begin(), result.measurements.end(), std::back_inserter(results.measurements));
+        std::move(result.noiseFloors.begin(), result.noiseFloors.end(), std::back_inserter(results.noiseFloors));
+        if (results.machine.clocks.empty()) {
+            results.machine.clocks = clocks();
+        }
+    }
+    const std::vector<Clock> last = clocks();
+    for (std::size_t i = 0; i < std::min(last.size(), results.machine.clocks.size()); ++i) {
+        results.machine.clocks[i].after = last[i].before;
+    }
+    results.fits = fitSeries(results.measurements);
+    results.images = renderPictures(device, plan, folder, say);
+    results.created = now();
+    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
+    results.procedure = {.quick = quick,
+                         .warmUpFrames = settings.warmUpFrames,
+                         .rounds = settings.rounds * settings.framesPerTurn,
+                         .seconds = duration.count()};
+    return results;
+}
+
+} // namespace nacre::bench

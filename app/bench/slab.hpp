@@ -1,0 +1,17 @@
+// The sweep's test body, of which everything can be chosen.
+#pragma once
+
+#include "app/bench/plan.hpp"
+
+namespace nacre::bench {
+
+/// A slab of 320 mm x 180 mm that fills a picture of 16:9, seen from the front.
+struct SlabSettings {
+    std::uint32_t triangles = 20'000; ///< at least
+    std::uint32_t materials = 1;      ///< patches in a grid, each with its own
+    double coverage = 1;              ///< share of the slab, from the left, that has them
+    std::uint32_t lights = 2;         ///< spot lights with shadow maps, in front and behind in turn
+};
+std::shared_ptr<const View> makeSlab(const SlabSettings& settings);
+
+} // namespace nacre::bench

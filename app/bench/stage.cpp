@@ -1,0 +1,48 @@
+#include "app/bench/stage.hpp"
+
+namespace nacre::bench {
+namespace {
+
+renderer::RenderSettings settingsOf(const Configuration& configuration) {
+    renderer::RenderSettings settings;
+    settings.width = configuration.size.width;
+    settings.height = configuration.size.height;
+    settings.shadowMapSize = configuration.shadowMapSize;
+    settings.copyFloor = true;
+    return settings;
+}
+
+} // namespace
+
+bool Stage::select(const Configuration& configuration) {
+    if (selected_ == &configuration) {
+        return false;
+    }
+    const Key key{configuration.view.get(), configuration.size.width, configuration.size.height,
+                  configuration.shadowMapSize};
+    auto found = actors_.find(key);
+    if (found == actors_.end()) {
+        renderer::Renderer renderer(device_, *configuration.view->scene, settingsOf(configuration));
+        found = actors_.emplace(key, Actor{std::move(renderer)}).first;
+    }
+    actor_ = &found->second;
+    if (actor_->configuration == nullptr || actor_->configuration->materials != configuration.materials) {
+        actor_->renderer.setMaterials(configuration.materials);
+    }
+    actor_->renderer.setEffect(configuration.effect);
+    actor_->configuration = &configuration;
+    selected_ = &configuration;
+    return true;
+}
+
+const renderer::FrameReport& Stage::renderFrame() {
+    actor_->renderer.render(selected_->view->camera);
+    return actor_->renderer.report();
+}
+
+const renderer::FrameReport& Stage::renderEffect() {
+    actor_->renderer.renderEffect();
+    return actor_->renderer.report();
+}
+
+} // namespace nacre::bench

@@ -1,0 +1,36 @@
+// The renderers that a series needs, and who uses them last.
+#pragma once
+
+#include "app/bench/plan.hpp"
+
+#include <map>
+
+namespace nacre::bench {
+
+/// Renders configurations; those of one view and size share a renderer.
+class Stage {
+public:
+    explicit Stage(renderer::Device& device) : device_(device) {}
+
+    /// Makes the configuration the one that is rendered. Returns whether it was not.
+    bool select(const Configuration& configuration);
+    /// Renders the selected configuration.
+    const renderer::FrameReport& renderFrame();
+    /// Repeats the effect of its last frame; the renderer must have rendered one.
+    const renderer::FrameReport& renderEffect();
+    renderer::Pixels read(renderer::Output output) const { return actor_->renderer.read(output); }
+
+private:
+    struct Actor {
+        renderer::Renderer renderer;
+        const Configuration* configuration = nullptr;
+    };
+    using Key = std::tuple<const View*, std::uint32_t, std::uint32_t, std::uint32_t>;
+
+    renderer::Device& device_;
+    std::map<Key, Actor> actors_;
+    Actor* actor_ = nullptr;
+    const Configuration* selected_ = nullptr;
+};
+
+} // namespace nacre::bench

@@ -1,0 +1,20 @@
+// What the suites look at.
+#pragma once
+
+#include "app/bench/plan.hpp"
+
+#include <filesystem>
+
+namespace nacre::bench {
+
+/// The gallery (no file), or a model or scene file, lit from the front and lit from behind, through its first camera.
+struct Views {
+    std::shared_ptr<const View> front;
+    std::shared_ptr<const View> back;
+};
+Views makeViews(const std::filesystem::path& file);
+
+/// The view, and close-ups of its `count` bodies with a subsurface material and the most triangles.
+std::vector<std::shared_ptr<const View>> closeUps(const std::shared_ptr<const View>& view, std::size_t count);
+
+} // namespace nacre::bench
