@@ -37,20 +37,19 @@ struct Exhibit {
     float roll;            ///< [deg] about +Z, before
     glm::vec3 color;
     float roughness;
-    float thickness = -1; ///< [mm] as Surface::thickness
     Painting painting;
 };
 
 constexpr Painting skin{gallery::headTextureCoordinates, gallery::makeSkinTexture};
 constexpr Painting flames{gallery::shellTextureCoordinates, gallery::makeShellTexture};
-constexpr glm::vec3 white{1}, jade{0.42f, 0.66f, 0.44f}, marble{0.86f, 0.84f, 0.80f}, green{0.22f, 0.46f, 0.10f};
+constexpr glm::vec3 white{1}, jade{0.34f, 0.62f, 0.40f}, marble{0.86f, 0.84f, 0.80f}, green{0.22f, 0.46f, 0.10f};
 
 constexpr std::array<Exhibit, 5> exhibits{{
-    {"head", "skin", gallery::makeHead, 120000, {-0.165f, 0, -0.02f}, 16, 0, white, 0.42f, -1, skin},
-    {"dragon", "jade", gallery::makeDragon, 150000, {0.27f, 0, -0.05f}, -14, 0, jade, 0.22f, -1, {}},
-    {"logo", "marble", gallery::makeLogo, 24000, {0.055f, 0, 0.185f}, 0, 0, marble, 0.25f, -1, {}},
-    {"shell", "nacre", gallery::makeShell, 46000, {-0.365f, 0, 0.08f}, -28, -62, white, 0.2f, -1, flames},
-    {"plant", "leaf", gallery::makePlant, 0, {0.05f, 0.86f * potHeight, -0.12f}, 0, 0, green, 0.38f, 0.4f, {}},
+    {"head", "skin", gallery::makeHead, 120000, {-0.165f, 0, -0.02f}, 11, 0, white, 0.42f, skin},
+    {"dragon", "jade", gallery::makeDragon, 150000, {0.27f, 0, -0.05f}, -14, 0, jade, 0.22f, {}},
+    {"logo", "marble", gallery::makeLogo, 24000, {0.055f, 0, 0.185f}, 0, 0, marble, 0.25f, {}},
+    {"shell", "nacre", gallery::makeShell, 46000, {-0.365f, 0, 0.08f}, -28, -62, white, 0.2f, flames},
+    {"plant", "leaf", gallery::makePlant, 0, {0.05f, 0.86f * potHeight, -0.12f}, 0, 0, green, 0.38f, {}},
 }};
 
 std::uint32_t addSurface(Scene& scene, const std::string& name, const glm::vec3& color, float roughness) {
@@ -69,9 +68,10 @@ void addInstance(Scene& scene, Mesh mesh, std::uint32_t surface, const glm::mat4
 }
 
 void addStage(Scene& scene) {
-    const std::uint32_t stone = addSurface(scene, "plinth", {0.10f, 0.10f, 0.11f}, 0.45f);
-    const std::uint32_t floor = addSurface(scene, "ground", {0.07f, 0.07f, 0.075f}, 0.6f);
+    const std::uint32_t stone = addSurface(scene, "plinth", {0.055f, 0.055f, 0.06f}, 0.9f);
+    const std::uint32_t floor = addSurface(scene, "ground", {0.05f, 0.05f, 0.055f}, 0.9f);
     const std::uint32_t clay = addSurface(scene, "pot", {0.30f, 0.13f, 0.08f}, 0.7f);
+    scene.surfaces[stone].specular = scene.surfaces[floor].specular = 0.15f; // dull: the back light must not dazzle
     const glm::mat4 identity(1);
     addInstance(scene, gallery::makeChamferedBox({0.56f, 0.5f * plinthHeight, 0.26f}, 0.006f), stone,
                 glm::translate(identity, {0, -0.5f * plinthHeight, 0}));
@@ -109,7 +109,6 @@ std::uint32_t addSurfaceOf(Scene& scene, const Exhibit& exhibit) {
     if (!preset)
         throw SceneError(std::string("the gallery's ") + exhibit.name + " needs the preset '" + exhibit.preset + "'");
     const std::uint32_t surface = addSurface(scene, exhibit.name, exhibit.color, exhibit.roughness);
-    scene.surfaces[surface].thickness = exhibit.thickness;
     scene.surfaces[surface].material = std::uint32_t(scene.materials.size());
     scene.materials.push_back(*preset);
     if (exhibit.painting.make) {
@@ -141,15 +140,15 @@ void addLights(Scene& scene, GalleryLight which) {
         key.name = "front key";
         key.kind = LightKind::Directional;
         key.color = {1, 0.95f, 0.88f};
-        key.intensity = 3.2f;
+        key.intensity = 5.2f;
         key.position = {-0.9f, 1.1f, 1.4f};
         key.direction = glm::normalize(glm::vec3(0.62f, -0.62f, -0.75f));
         Light fill;
         fill.name = "front fill";
         fill.kind = LightKind::Point;
         fill.color = {0.80f, 0.88f, 1};
-        fill.intensity = 0.8f;
-        fill.position = {0.9f, 0.5f, 0.9f};
+        fill.intensity = 1.6f;
+        fill.position = {0.75f, 0.45f, 0.95f};
         scene.lights.insert(scene.lights.end(), {key, fill});
     }
     if (which != GalleryLight::Front) {
@@ -157,8 +156,8 @@ void addLights(Scene& scene, GalleryLight which) {
         back.name = "back";
         back.kind = LightKind::Spot;
         back.color = {1, 0.93f, 0.82f};
-        back.intensity = 26;
-        back.position = {0.10f, 0.62f, -1.35f};
+        back.intensity = 40;
+        back.position = {-0.10f, 0.98f, -1.15f};
         back.direction = glm::normalize(glm::vec3(0, 0.14f, 0) - back.position);
         back.innerConeAngle = glm::radians(20.f);
         back.outerConeAngle = glm::radians(27.f);

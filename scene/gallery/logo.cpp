@@ -5,7 +5,7 @@ namespace nacre::scene::gallery {
 
 namespace {
 
-constexpr float capHeight = 62, strokeWidth = 13, halfDepth = 9, bevel = 3, letterSpacing = 9;
+constexpr float capHeight = 62, strokeWidth = 13, halfDepth = 7, bevel = 3, letterSpacing = 9;
 
 /// A bar from a to b with square ends.
 float barDistance(const glm::vec2& p, const glm::vec2& a, const glm::vec2& b, float width) {

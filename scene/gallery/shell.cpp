@@ -8,11 +8,11 @@ namespace nacre::scene::gallery {
 namespace {
 
 constexpr float growth = 0.178f;     // ln of the radius per radian: a nautilus grows about threefold each turn
-constexpr float mouthCenter = 56;    // mm from the axis to the tube's middle at the mouth, angle 0
+constexpr float mouthCenter = 62;    // mm from the axis to the tube's middle at the mouth, angle 0
 constexpr float tubeRatio = 0.56f;   // tube radius by distance from the axis
 constexpr float wall = 2.2f;         // mm
 constexpr float chamberAngle = 5.2f; // rad; the living chamber reaches this far back from the mouth
-constexpr float textureReach = 96;   // mm; the texture shows x and y of [-96, 96]
+constexpr float textureReach = 106;  // mm; the texture shows x and y of [-106, 106]
 
 /// One whorl at a distance r from the axis; `angle` is along the spiral, 0 at the mouth and negative before it.
 float whorlDistance(float r, float z, float angle) {
@@ -48,7 +48,7 @@ glm::vec3 shellColor(const glm::vec2& q) {
     const float across = r / outside, wobble = noise(glm::vec3(3 * across, 2.2f * angle, 3));
     const float wave = sine(9.5f * angle + 2.6f * across + 1.3f * wobble);
     const float cover = smoothStep(0.0f, 0.45f, wave + 0.25f * noise(glm::vec3(q / 3.f, 9))) *
-                        smoothStep(-2.3f, -3.4f, angle + 0.9f * across + 0.5f * wobble);
+                        smoothStep(-1.1f, -2.3f, angle + 0.9f * across + 0.5f * wobble);
     const glm::vec3 pearl = glm::vec3(0.90f, 0.85f, 0.79f) * (1 + 0.03f * noise(glm::vec3(q / 5.f, 1)));
     return glm::mix(pearl, glm::vec3(0.46f, 0.17f, 0.06f), 0.85f * cover);
 }
@@ -57,7 +57,7 @@ glm::vec3 shellColor(const glm::vec2& q) {
 
 Body makeShell(std::size_t triangles) {
     ImplicitSurface shell;
-    shell.add(boundsOf({0, 0, 0}, {96, 90, 36}), 0, shellDistance);
+    shell.add(boundsOf({0, 0, 0}, {106, 100, 40}), 0, shellDistance);
     return makeBody(shell, 1, triangles);
 }
 

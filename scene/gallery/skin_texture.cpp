@@ -102,7 +102,7 @@ float lineCover(const glm::vec2& q, const Line& line, const Chart::MappedLine& m
             nearest = distance, along = (float(i) + t) / float(mapped.points.size() - 1);
     }
     const float halfWidth = glm::mix(line.begin, line.end, along);
-    const float strands = 0.5f + 0.5f * noise(glm::vec3(q.x / 0.9f + q.y / 1.8f, q.y / 5.f - q.x / 9.f, 13));
+    const float strands = 0.5f + 0.5f * noise(glm::vec3(q.x / 0.8f - q.y / 0.9f, q.x / 4.f + q.y / 3.5f, 13));
     return smoothStep(halfWidth + line.softness, halfWidth - 0.5f * line.softness, nearest) * (1 - line.hair * strands);
 }
 
@@ -119,7 +119,8 @@ glm::vec3 skinColor(const glm::vec2& q, const Chart& chart) {
     }
     // Short hair shows through the scalp; the hairline runs over the forehead and down in front of the ears.
     const float hairline = q.y - 88 + 0.0065f * q.x * q.x + 3 * noise(glm::vec3(q / 5.f, 11));
-    const float scalp = std::max(smoothStep(-6, 10, hairline), smoothStep(118, 128, glm::length(q + glm::vec2(0, 20))));
+    const float scalp =
+        std::max(smoothStep(-6, 10, hairline), smoothStep(118, 128, glm::length(q)) * smoothStep(-70, -30, q.y));
     const float stubble = 0.85f + 0.15f * noise(glm::vec3(q / 0.9f, 5));
     color *= glm::mix(glm::vec3(1), glm::vec3(0.80f, 0.83f, 0.88f) * stubble, 0.8f * scalp);
     for (std::size_t i = 0; i < std::size(lines); ++i)
