@@ -16,6 +16,8 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) 
 const int tileSize = 32; // px; level l has tileSize / 2^l texels a side in each tile
 const int rawLevels = 5; // level 6 is reduced by the blur
 const float maxHalf = 65504.0;
+const uint presentBit = 0x10000u; // in the last word of a blurred texel, above the material
+const uint roughBit = 0x20000u;
 
 // A texel of the reduced pyramid.
 struct RawTexel {
@@ -34,6 +36,7 @@ struct BlurredTexel {
     float depth;
     uint material;
     bool present; // whether there is a surface near
+    bool rough;   // whether a neighbour is on another surface, or on this one's steep side
 };
 
 RawTexel emptyTexel() {
@@ -56,14 +59,15 @@ RawTexel unpackRaw(uvec4 words) {
 
 uvec4 packBlurred(BlurredTexel texel) {
     return uvec4(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)),
-                 floatBitsToUint(texel.depth), texel.present ? texel.material | 0x10000u : 0u);
+                 floatBitsToUint(texel.depth),
+                 texel.material | (texel.present ? presentBit : 0u) | (texel.rough ? roughBit : 0u));
 }
 
 BlurredTexel unpackBlurred(uvec4 words) {
     vec2 redGreen = unpackHalf2x16(words.x);
     vec2 blueMass = unpackHalf2x16(words.y);
     return BlurredTexel(vec3(redGreen, blueMass.x), blueMass.y, uintBitsToFloat(words.z), words.w & 0xffffu,
-                        words.w != 0u);
+                        (words.w & presentBit) != 0u, (words.w & roughBit) != 0u);
 }
 
 ivec2 tileCount() {

@@ -1,12 +1,14 @@
-// Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, all levels in
-// one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the tiles that hold
+// Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, two a thread, all
+// levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the tiles that hold
 // subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 16, local_size_y = 8) in;
 
+const int threads = 128;
 const int side = 16;
 const int halo = 2;
 const int pitch = side + 2 * halo;
@@ -37,7 +39,8 @@ Block findBlock(uint group) {
 // Level 6 is reduced here, from the level pass A ends with.
 uvec4 loadTexel(int level, ivec2 texel) {
     if (level <= rawLevels) {
-        return packRaw(rawTexel(level, texel));
+        bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, levelExtent(level)));
+        return inside ? rawTexels[texelIndex(level, texel)] : uvec4(0u);
     }
     RawTexel children[4];
     for (int i = 0; i < 4; ++i) {
@@ -51,74 +54,99 @@ bool isOccupied(ivec2 tile) {
     return inside && tileEntries[tile.y * tileCount().x + tile.x] != 0u;
 }
 
-// Whether two neighbouring texels of level 1 are further apart in depth than a smooth surface's.
-bool isStep(RawTexel a, int neighbor) {
-    RawTexel b = unpackRaw(texels[neighbor]);
-    return b.mass > 0.0 && abs(b.depth - a.depth) > bankSmoothDepth * texelWidth(1, a.depth);
+// Whether the texel at `neighbor` is a surface further from `depth` than a smooth one's neighbour would be.
+bool isStep(int neighbor, float depth, float limit) {
+    RawTexel tap = unpackRaw(texels[neighbor]);
+    return tap.mass > 0.0 && abs(tap.depth - depth) > limit;
 }
 
+// Whether level 1 is rough at a texel, with which a tile's pixels cannot be combined as smooth ones.
 bool isRough(int index) {
     RawTexel texel = unpackRaw(texels[index]);
     if (texel.mass <= 0.0) {
         return false;
     }
-    bool stepRight = index % pitch + 1 < pitch && isStep(texel, index + 1);
-    bool stepBelow = index / pitch + 1 < pitch && isStep(texel, index + pitch);
+    float limit = bankSmoothDepth * texelWidth(1, texel.depth);
+    bool stepRight = index % pitch + 1 < pitch && isStep(index + 1, texel.depth, limit);
+    bool stepBelow = index / pitch + 1 < pitch && isStep(index + pitch, texel.depth, limit);
     return texel.dropped || stepRight || stepBelow;
 }
 
-// Depth and material an empty texel takes from the texels around it, so that light reaches across small holes.
-BlurredTexel borrow(int center) {
-    BlurredTexel result = BlurredTexel(vec3(0.0), 0.0, 0.0, 0u, false);
-    float mass = 0.0;
-    float heaviest = 0.0;
-    for (int i = 0; i < 9; ++i) {
-        RawTexel tap = unpackRaw(texels[center + i % 3 - 1 + (i / 3 - 1) * pitch]);
-        mass += tap.mass;
-        result.depth += tap.mass * tap.depth;
-        if (tap.mass > heaviest) {
-            heaviest = tap.mass;
-            result.material = tap.material;
+// Where a texel's kernel stands: its own surface or, where it is empty, its neighbours', so that light reaches across
+// small holes.
+BlurredTexel findSurface(int level, int center) {
+    RawTexel own = unpackRaw(texels[center]);
+    BlurredTexel result = BlurredTexel(vec3(0.0), 0.0, own.depth, own.material, own.mass > 0.0, own.dropped);
+    if (!result.present) {
+        float mass = 0.0;
+        float heaviest = 0.0;
+        for (int i = 0; i < 9; ++i) {
+            RawTexel tap = unpackRaw(texels[center + i % 3 - 1 + (i / 3 - 1) * pitch]);
+            mass += tap.mass;
+            result.depth += tap.mass * tap.depth;
+            if (tap.mass > heaviest) {
+                heaviest = tap.mass;
+                result.material = tap.material;
+            }
         }
+        result.present = mass > 0.0;
+        result.depth /= max(mass, 1e-20);
     }
-    result.present = mass > 0.0;
-    result.depth /= max(mass, 1e-20);
+    float limit = bankSmoothDepth * texelWidth(level, result.depth);
+    bool stepX = isStep(center - 1, result.depth, limit) || isStep(center + 1, result.depth, limit);
+    bool stepY = isStep(center - pitch, result.depth, limit) || isStep(center + pitch, result.depth, limit);
+    result.rough = result.rough || stepX || stepY;
     return result;
 }
 
-BlurredTexel blurTexel(int level, int center) {
-    RawTexel own = unpackRaw(texels[center]);
-    BlurredTexel result = borrow(center);
-    if (own.mass > 0.0) {
-        result.depth = own.depth;
-        result.material = own.material;
-    }
-    if (!result.present) {
-        return result;
-    }
-    float width = texelWidth(level, result.depth);
-    float scale = 1.0 / (bankBlurDepthVariance * width * width);
-    vec3 light = vec3(0.0);
-    float area = 0.0;
-    float mass = 0.0;
-    float counted = 0.0;
-    for (int y = 0; y < 5; ++y) {
-        for (int x = 0; x < 5; ++x) {
-            float kernel = binomial[x] * binomial[y];
+// Weighted sums of a kernel's taps.
+struct Sums {
+    vec3 light;
+    float area;
+    float mass;
+    float counted; // what the weights would sum to if nothing were missing
+};
+
+void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width) {
+    float difference = tap.depth - surface.depth;
+    float weight = kernel * falloff(difference * difference / (bankBlurDepthVariance * width * width));
+    bool taken = tap.mass > 0.0 && givesLight(tap.material, surface.material);
+    sums.counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
+    weight = taken ? weight : 0.0;
+    sums.light += weight * tap.area * tap.light;
+    sums.area += weight * tap.area;
+    sums.mass += weight * tap.mass;
+}
+
+// Blurs a texel and the one below it, which have four of five rows of taps in common.
+void blurPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
+    upper = findSurface(level, center);
+    lower = findSurface(level, center + pitch);
+    float upperWidth = texelWidth(level, upper.depth);
+    float lowerWidth = texelWidth(level, lower.depth);
+    Sums upperSums = Sums(vec3(0.0), 0.0, 0.0, 0.0);
+    Sums lowerSums = upperSums;
+    [[unroll]] for (int y = 0; y < 6; ++y) {
+        [[unroll]] for (int x = 0; x < 5; ++x) {
             RawTexel tap = unpackRaw(texels[center + x - halo + (y - halo) * pitch]);
-            float difference = tap.depth - result.depth;
-            float weight = kernel * falloff(difference * difference * scale);
-            bool taken = tap.mass > 0.0 && givesLight(tap.material, result.material);
-            counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
-            weight = taken ? weight : 0.0;
-            light += weight * tap.area * tap.light;
-            area += weight * tap.area;
-            mass += weight * tap.mass;
+            if (y < 5) {
+                addTap(upperSums, tap, upper, binomial[x] * binomial[y], upperWidth);
+            }
+            if (y > 0) {
+                addTap(lowerSums, tap, lower, binomial[x] * binomial[y - 1], lowerWidth);
+            }
         }
     }
-    result.mass = mass / max(counted, bankLeastWeight);
-    result.light = light * (result.mass / max(area, bankLeastWeight));
-    return result;
+    upper.mass = upperSums.mass / max(upperSums.counted, bankLeastWeight);
+    upper.light = upperSums.light * (upper.mass / max(upperSums.area, bankLeastWeight));
+    lower.mass = lowerSums.mass / max(lowerSums.counted, bankLeastWeight);
+    lower.light = lowerSums.light * (lower.mass / max(lowerSums.area, bankLeastWeight));
+}
+
+void storeBlurred(int level, ivec2 texel, BlurredTexel blurred) {
+    if (all(lessThan(texel, levelExtent(level)))) {
+        blurredTexels[texelIndex(level, texel)] = blurred.present ? packBlurred(blurred) : uvec4(0u);
+    }
 }
 
 // Puts a tile on the list of the pipeline that combines it, and makes that pipeline's dispatch cover the list.
@@ -147,25 +175,26 @@ void main() {
     if (block.level == 0 || (block.level == 1 && occupiedNear == 0u)) {
         return;
     }
-    for (int i = thread; i < pitch * pitch; i += side * side) {
+    for (int i = thread; i < pitch * pitch; i += threads) {
         texels[i] = loadTexel(block.level, block.first + ivec2(i % pitch, i / pitch) - halo);
     }
     barrier();
     if (block.level == 1) {
-        for (int i = thread; i < pitch * pitch; i += side * side) {
+        for (int i = thread; i < pitch * pitch; i += threads) {
             if (isRough(i)) {
                 atomicOr(rough, 1u);
             }
         }
     }
-    ivec2 local = ivec2(gl_LocalInvocationID.xy);
-    ivec2 texel = block.first + local;
-    if (all(lessThan(texel, levelExtent(block.level)))) {
-        int center = (local.y + halo) * pitch + local.x + halo;
-        blurredTexels[texelIndex(block.level, texel)] = packBlurred(blurTexel(block.level, center));
-    }
+    ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, 2);
+    BlurredTexel upper;
+    BlurredTexel lower;
+    blurPair(block.level, (local.y + halo) * pitch + local.x + halo, upper, lower);
+    storeBlurred(block.level, block.first + local, upper);
+    storeBlurred(block.level, block.first + local + ivec2(0, 1), lower);
     barrier();
     if (thread == 0 && block.level == 1 && isOccupied(tile)) {
-        listTile(tile, rough);
+        // Pixels that ask for materials are combined tap by tap.
+        listTile(tile, hasFlag(flagSeparateMaterials) ? 1u : rough);
     }
 }

@@ -3,6 +3,7 @@
 // tiles without depth discontinuities, else for the others. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -25,6 +26,8 @@ const uint infiniteHalf = 0x7c00u;
 shared uvec2 pixelLight[pixelCount];
 shared float pixelDepth[pixelCount];
 shared uvec4 levelTexels[levelTexelCount];
+// Bit l: some texel of level l is rough or empty, and taps have depth weights of their own; else bilinear ones will do.
+shared uint roughLevels;
 
 // A pixel as a source and receiver of light.
 struct Pixel {
@@ -55,24 +58,27 @@ Pixel pixelAt(int index) {
     return pixel;
 }
 
-void loadPixel(int index, ivec2 local) {
-    uvec2 words = uvec2(infiniteHalf, 0u);
-    float depth = 0.0;
-    if (all(greaterThanEqual(local, ivec2(0))) && all(lessThan(local, view.areaExtent))) {
-        ivec2 pixel = local + view.areaOffset;
-        uint material = materialAt(pixel);
-        float z = viewZ(pixel);
-        if (material != 0u && isValidZ(z)) {
-            vec3 light = enteringLight(pixel, material);
-            bool gives = isFinite(light);
-            light = gives ? min(light, vec3(maxHalf)) : vec3(0.0);
-            words.x = gives ? packHalf2x16(light.rg) : infiniteHalf;
-            words.y = packHalf2x16(vec2(light.b, 0.0)) | material << 16;
-            depth = -z;
-        }
-    }
-    pixelLight[index] = words;
-    pixelDepth[index] = depth;
+// What is fetched of a pixel. All of a thread's fetches are made before any of them is used.
+struct Fetched {
+    vec3 light;
+    float z;
+    uint material;
+};
+
+Fetched fetchPixel(ivec2 local) {
+    ivec2 inside = clamp(local, ivec2(0), view.areaExtent - 1);
+    ivec2 pixel = inside + view.areaOffset;
+    uint material = materialAt(pixel);
+    return Fetched(enteringLight(pixel, material), viewZ(pixel), local == inside ? material : 0u);
+}
+
+void storePixel(int index, Fetched pixel) {
+    bool receives = pixel.material != 0u && isValidZ(pixel.z);
+    bool gives = receives && isFinite(pixel.light);
+    vec3 light = min(pixel.light, vec3(maxHalf));
+    uint blue = gives ? packHalf2x16(vec2(light.b, 0.0)) : 0u;
+    pixelLight[index] = uvec2(gives ? packHalf2x16(light.rg) : infiniteHalf, receives ? blue | pixel.material << 16 : 0u);
+    pixelDepth[index] = receives ? -pixel.z : 0.0;
 }
 
 // The first texel of a level in shared memory.
@@ -80,12 +86,47 @@ ivec2 levelFirst(int level, ivec2 region) {
     return (region >> level) - 1;
 }
 
-void loadLevel(int level, ivec2 region, int thread) {
-    int count = levelStart[level + 1] - levelStart[level];
-    for (int i = thread; i < count; i += threads) {
-        ivec2 texel = levelFirst(level, region) + ivec2(i % levelPitch[level].x, i / levelPitch[level].x);
-        texel = clamp(texel, ivec2(0), levelExtent(level) - 1);
-        levelTexels[levelStart[level] + i] = blurredTexels[texelIndex(level, texel)];
+int levelOf(int index) {
+    int level = 1;
+    [[unroll]] for (int next = 2; next <= bankLevels; ++next) {
+        level += index >= levelStart[next] ? 1 : 0;
+    }
+    return level;
+}
+
+uvec4 fetchLevelTexel(int index, ivec2 region) {
+    int level = levelOf(index);
+    int inLevel = index - levelStart[level];
+    ivec2 texel = levelFirst(level, region) + ivec2(inLevel % levelPitch[level].x, inLevel / levelPitch[level].x);
+    return blurredTexels[texelIndex(level, clamp(texel, ivec2(0), levelExtent(level) - 1))];
+}
+
+void loadRegion(ivec2 region, int thread) {
+    const int pixelSteps = (pixelCount + threads - 1) / threads;
+    const int levelSteps = (levelTexelCount + threads - 1) / threads;
+    Fetched pixels[pixelSteps];
+    uvec4 texels[levelSteps];
+    [[unroll]] for (int i = 0; i < levelSteps; ++i) {
+        texels[i] = fetchLevelTexel(min(thread + i * threads, levelTexelCount - 1), region);
+    }
+    [[unroll]] for (int i = 0; i < pixelSteps; ++i) {
+        int index = min(thread + i * threads, pixelCount - 1);
+        pixels[i] = fetchPixel(region + ivec2(index % pixelPitch.x, index / pixelPitch.x) - 1);
+    }
+    [[unroll]] for (int i = 0; i < levelSteps; ++i) {
+        int index = thread + i * threads;
+        if (index < levelTexelCount) {
+            levelTexels[index] = texels[i];
+            if ((texels[i].w & (presentBit | roughBit)) != presentBit) {
+                atomicOr(roughLevels, 1u << levelOf(index));
+            }
+        }
+    }
+    [[unroll]] for (int i = 0; i < pixelSteps; ++i) {
+        int index = thread + i * threads;
+        if (index < pixelCount) {
+            storePixel(index, pixels[i]);
+        }
     }
 }
 
@@ -115,74 +156,73 @@ vec3 kernelWeight(Weights weights, int kernel) {
     return kernel % 2 == 0 ? vec3(first, second.x) : vec3(first.y, second);
 }
 
-void add(inout Sum sum, vec3 weight, vec3 light, float mass) {
-    sum.light += weight * light;
-    sum.mass += weight * mass;
+void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
+    sum.light += weight * lightAndMass.rgb;
+    sum.mass += weight * lightAndMass.a;
 }
 
 // The identity and the full-resolution 3x3 of the quad's four pixels. `first` is the pixel up and left of the quad.
 #ifdef SMOOTH
-// Taps have the depths of the slope the quad stands on, which makes their weights separable.
-void addPixels(inout Sum sums[4], Weights weights, int first) {
-    Pixel quad[4];
-    for (int i = 0; i < 4; ++i) {
-        quad[i] = pixelAt(first + 1 + (i & 1) + (1 + (i >> 1)) * pixelPitch.x);
-    }
+// Red, green and blue of a pixel, and 1, or 0 where it gives no light.
+vec4 lightAt(int index) {
+    uvec2 words = pixelLight[index];
+    bool gives = (words.x & 0xffffu) != infiniteHalf;
+    return gives ? vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x, 1.0) : vec4(0.0);
+}
+
+// How much a tap beside the centre weighs on the slope the quad stands on, in x and y.
+vec2 weightBeside(int first, bvec4 members, float depths[4], float depth) {
     vec2 steps = vec2(0.0);
     vec2 pairs = vec2(0.0);
-    for (int i = 0; i < 2; ++i) {
-        if (quad[2 * i].gives && quad[2 * i + 1].gives) {
-            steps.x += quad[2 * i + 1].depth - quad[2 * i].depth;
-            pairs.x += 1.0;
-        }
-        if (quad[i].gives && quad[i + 2].gives) {
-            steps.y += quad[i + 2].depth - quad[i].depth;
-            pairs.y += 1.0;
-        }
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        bool pairX = members[2 * i] && members[2 * i + 1];
+        bool pairY = members[i] && members[i + 2];
+        steps += vec2(pairX ? depths[2 * i + 1] - depths[2 * i] : 0.0, pairY ? depths[i + 2] - depths[i] : 0.0);
+        pairs += vec2(pairX, pairY);
     }
-    float depth = quad[0].material != 0u   ? quad[0].depth
-                  : quad[1].material != 0u ? quad[1].depth
-                  : quad[2].material != 0u ? quad[2].depth
-                                           : quad[3].depth;
-    float width = texelWidth(0, depth);
-    vec2 slope = steps / (max(pairs, vec2(1.0)) * width);
-    vec2 beside = 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
-                             falloff(slope.y * slope.y / bankPixelDepthVariance));
+    vec2 slope = steps / (max(pairs, vec2(1.0)) * texelWidth(0, depth));
+    return 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
+                      falloff(slope.y * slope.y / bankPixelDepthVariance));
+}
+
+// Taps have the depths of that slope, which makes their weights separable.
+void addPixels(inout Sum sums[4], Weights weights, int first, bvec4 members, float depths[4], float depth) {
+    vec2 beside = weightBeside(first, members, depths, depth);
     vec2 total = 1.0 + 2.0 * beside;
-    float scale = 1.0 / (total.x * total.y);
-    vec3 light[4] = vec3[](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    float mass[4] = float[](0.0, 0.0, 0.0, 0.0);
-    for (int y = 0; y < 4; ++y) {
-        for (int x = 0; x < 4; ++x) {
-            Pixel tap = pixelAt(first + x + y * pixelPitch.x);
-            for (int i = 0; i < 4; ++i) {
-                ivec2 offset = ivec2(x, y) - 1 - ivec2(i & 1, i >> 1);
-                if (abs(offset.x) <= 1 && abs(offset.y) <= 1) {
-                    float kernel = (offset.x == 0 ? 1.0 : beside.x) * (offset.y == 0 ? 1.0 : beside.y);
-                    bool taken = tap.gives && givesLight(tap.material, quad[i].material);
-                    kernel = taken ? kernel * scale : 0.0;
-                    light[i] += kernel * tap.light;
-                    mass[i] += kernel;
-                }
+    vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
+    vec4 own[4];
+    [[unroll]] for (int y = 0; y < 4; ++y) {
+        vec4 row[4];
+        [[unroll]] for (int x = 0; x < 4; ++x) {
+            row[x] = lightAt(first + x + y * pixelPitch.x);
+        }
+        [[unroll]] for (int x = 0; x < 2; ++x) {
+            rows[y][x] = row[x + 1] + beside.x * (row[x] + row[x + 2]);
+            if (y == 1 || y == 2) {
+                own[x + 2 * (y - 1)] = row[x + 1];
             }
         }
     }
-    for (int i = 0; i < 4; ++i) {
-        add(sums[i], kernelWeight(weights, 1), light[i], mass[i]);
-        if (quad[i].gives) {
-            add(sums[i], kernelWeight(weights, 0), quad[i].light, 1.0);
-        }
+    float scale = 1.0 / (total.x * total.y);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int x = i & 1;
+        int y = i >> 1;
+        vec4 blurred = scale * (rows[y + 1][x] + beside.y * (rows[y][x] + rows[y + 2][x]));
+        add(sums[i], kernelWeight(weights, 0), own[i]);
+        add(sums[i], kernelWeight(weights, 1), blurred);
     }
 }
 #else
-void addPixels(inout Sum sums[4], Weights weights, int first) {
+void addPixels(inout Sum sums[4], Weights weights, int first, bvec4 members, float depths[4], float depth) {
     for (int i = 0; i < 4; ++i) {
+        if (!members[i]) {
+            continue;
+        }
         int center = first + 1 + (i & 1) + (1 + (i >> 1)) * pixelPitch.x;
         Pixel own = pixelAt(center);
         float width = texelWidth(0, own.depth);
         float scale = 1.0 / (bankPixelDepthVariance * width * width);
-        vec3 light = vec3(0.0);
-        float mass = 0.0;
+        vec4 light = vec4(0.0);
         float counted = 0.0;
         for (int j = 0; j < 9; ++j) {
             ivec2 offset = ivec2(j % 3, j / 3) - 1;
@@ -192,17 +232,19 @@ void addPixels(inout Sum sums[4], Weights weights, int first) {
             float weight = kernel * falloff(difference * difference * scale);
             bool taken = tap.gives && givesLight(tap.material, own.material);
             counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
-            weight = taken ? weight : 0.0;
-            light += weight * tap.light;
-            mass += weight;
+            light += taken ? weight * vec4(tap.light, 1.0) : vec4(0.0);
         }
-        add(sums[i], kernelWeight(weights, 1), light / counted, mass / counted);
-        if (own.gives) {
-            add(sums[i], kernelWeight(weights, 0), own.light, 1.0);
-        }
+        add(sums[i], kernelWeight(weights, 0), own.gives ? vec4(own.light, 1.0) : vec4(0.0));
+        add(sums[i], kernelWeight(weights, 1), light / counted);
     }
 }
 #endif
+
+// A level's texel: light and mass.
+vec4 texelLight(int index) {
+    uvec2 words = levelTexels[index].xy;
+    return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+}
 
 // A level's texel as a tap for a surface at `depth`: premultiplied by its depth weight, which is `total`.
 struct Tap {
@@ -228,8 +270,7 @@ void addTaps(inout Sum sum, vec3 weight, Tap taps[4], vec2 fraction) {
         total += bilinear[i] * taps[i].total;
         light += bilinear[i] * taps[i].light;
     }
-    light /= max(total, bankLeastWeight);
-    add(sum, weight, light.rgb, light.a);
+    add(sum, weight, light / max(total, bankLeastWeight));
 }
 
 // Index in shared memory of the texel up and left of a pixel, and where the pixel lies between it and the next.
@@ -240,6 +281,24 @@ int levelCorner(int level, ivec2 region, ivec2 local, out vec2 fraction) {
     return levelStart[level] + inRegion.y * levelPitch[level].x + inRegion.x;
 }
 
+#ifdef SMOOTH
+// Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
+void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad, uint material, float depths[4]) {
+    ivec2 inRegion = (quad >> 1) - levelFirst(1, region) - 1;
+    int corner = levelStart[1] + inRegion.y * levelPitch[1].x + inRegion.x;
+    vec4 rows[3][2];
+    [[unroll]] for (int y = 0; y < 3; ++y) {
+        int index = corner + y * levelPitch[1].x;
+        vec4 middle = texelLight(index + 1);
+        rows[y][0] = mix(middle, texelLight(index), 0.25);
+        rows[y][1] = mix(middle, texelLight(index + 2), 0.25);
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        vec4 light = mix(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25);
+        add(sums[i], kernelWeight(weights, 2), light);
+    }
+}
+#else
 // Level 1, whose texels are the quads: each pixel has texels and depth weights of its own.
 void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad, uint material, float depths[4]) {
     for (int i = 0; i < 4; ++i) {
@@ -252,8 +311,9 @@ void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad
         addTaps(sums[i], kernelWeight(weights, 2), taps, fraction);
     }
 }
+#endif
 
-// A coarser level: the quad's pixels lie between the same four texels and share their depth weights.
+// A coarser level: the quad's pixels lie between the same four texels.
 void addLevel(int level, inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad, uint material, float depth) {
     vec3 weight = kernelWeight(weights, level + 1);
     if (weight == vec3(0.0)) {
@@ -261,12 +321,25 @@ void addLevel(int level, inout Sum sums[4], Weights weights, ivec2 region, ivec2
     }
     vec2 fraction;
     int corner = levelCorner(level, region, quad, fraction);
-    Tap taps[4];
-    for (int j = 0; j < 4; ++j) {
-        taps[j] = loadTap(corner + (j & 1) + (j >> 1) * levelPitch[level].x, level, depth, material);
-    }
-    for (int i = 0; i < 4; ++i) {
-        addTaps(sums[i], weight, taps, fraction + vec2(i & 1, i >> 1) / float(1 << level));
+    int below = corner + levelPitch[level].x;
+    vec2 step = vec2(1.0 / float(1 << level));
+    if ((roughLevels >> level & 1u) == 0u) {
+        vec4 upperLeft = texelLight(corner);
+        vec4 lowerLeft = texelLight(below);
+        vec4 upperSlope = texelLight(corner + 1) - upperLeft;
+        vec4 lowerSlope = texelLight(below + 1) - lowerLeft;
+        [[unroll]] for (int x = 0; x < 2; ++x) {
+            vec4 upper = upperLeft + (fraction.x + float(x) * step.x) * upperSlope;
+            vec4 lower = lowerLeft + (fraction.x + float(x) * step.x) * lowerSlope;
+            add(sums[x], weight, mix(upper, lower, fraction.y));
+            add(sums[x + 2], weight, mix(upper, lower, fraction.y + step.y));
+        }
+    } else { // depth weights, shared by the quad
+        Tap taps[4] = Tap[](loadTap(corner, level, depth, material), loadTap(corner + 1, level, depth, material),
+                            loadTap(below, level, depth, material), loadTap(below + 1, level, depth, material));
+        for (int i = 0; i < 4; ++i) {
+            addTaps(sums[i], weight, taps, fraction + vec2(i & 1, i >> 1) * step);
+        }
     }
 }
 
@@ -277,9 +350,9 @@ void combineGroup(ivec2 region, ivec2 quad, int first, uint material, float dept
     for (int i = 0; i < 4; ++i) {
         sums[i] = Sum(vec3(0.0), vec3(0.0));
     }
-    addPixels(sums, weights, first);
+    addPixels(sums, weights, first, members, depths, depth);
     addFinestLevel(sums, weights, region, quad, material, depths);
-    for (int level = 2; level <= bankLevels; ++level) {
+    [[unroll]] for (int level = 2; level <= bankLevels; ++level) {
         addLevel(level, sums, weights, region, quad, material, depth);
     }
     for (int i = 0; i < 4; ++i) {
@@ -337,12 +410,11 @@ void main() {
     int tile = int(tileEntries[tiles.x * tiles.y * (1 + kind) + int(entry)]);
     ivec2 region = ivec2(tile % tiles.x, tile / tiles.x) * tileSize + ivec2(0, int(gl_WorkGroupID.z) * regionSize.y);
     int thread = int(gl_LocalInvocationIndex);
-    for (int i = thread; i < pixelCount; i += threads) {
-        loadPixel(i, region + ivec2(i % pixelPitch.x, i / pixelPitch.x) - 1);
+    if (thread == 0) {
+        roughLevels = hasFlag(flagSeparateMaterials) ? ~0u : 0u;
     }
-    for (int level = 1; level <= bankLevels; ++level) {
-        loadLevel(level, region, thread);
-    }
+    barrier();
+    loadRegion(region, thread);
     barrier();
     ivec2 inRegion = 2 * ivec2(gl_LocalInvocationID.xy);
     combineQuad(region, region + inRegion, inRegion.y * pixelPitch.x + inRegion.x);

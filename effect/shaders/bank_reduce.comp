@@ -12,22 +12,17 @@ const int side = 16; // texels of level 1
 shared uvec4 texels[side * side];
 shared uint occupied;
 
-// A pixel as a texel. Not finite light is no light; not finite depth is no surface.
+// A pixel as a texel. Not finite light is no light; not finite depth is no surface. Everything is fetched before
+// anything is asked, so that the four pixels' fetches overlap.
 RawTexel loadPixel(ivec2 local, out bool receives) {
-    RawTexel texel = emptyTexel();
-    receives = false;
-    if (any(greaterThanEqual(local, view.areaExtent))) {
-        return texel;
-    }
-    ivec2 pixel = local + view.areaOffset;
+    ivec2 pixel = min(local, view.areaExtent - 1) + view.areaOffset;
     uint material = materialAt(pixel);
     float z = viewZ(pixel);
-    receives = material != 0u && isValidZ(z);
-    if (receives) {
-        vec3 light = enteringLight(pixel, material);
-        texel = RawTexel(min(light, vec3(maxHalf)), 1.0, isFinite(light) ? 1.0 : 0.0, -z, material, false);
-    }
-    return texel;
+    vec3 light = enteringLight(pixel, material);
+    receives = local == pixel - view.areaOffset && material != 0u && isValidZ(z);
+    bool gives = receives && isFinite(light);
+    return RawTexel(gives ? min(light, vec3(maxHalf)) : vec3(0.0), 1.0, gives ? 1.0 : 0.0, gives ? -z : 0.0, material,
+                    false);
 }
 
 // Area of the surface relative to one that faces the camera, from the depth steps inside a 2x2 block.

@@ -23,7 +23,9 @@ layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredI
 // The pixel's material, 0 where there is no subsurface scattering.
 uint materialAt(ivec2 pixel) {
     uint id = texelFetch(materialIdImage, pixel, 0).r;
-    return id <= view.maxMaterial && materials[id].set != 0u ? id : 0u;
+    uint known = min(id, view.maxMaterial);
+    uint set = materials[known].set;
+    return id == known && set != 0u ? id : 0u;
 }
 
 // Whether light that enters material `from` may leave material `to`: one material, or a common exchange group.
@@ -55,13 +57,21 @@ float strengthAt(ivec2 pixel, uint material) {
     return hasFlag(flagStrength) ? strength * clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0) : strength;
 }
 
-// Writes a pixel of a material, given the light that leaves there before strength and albedo.
-void writeScattered(ivec2 pixel, uint material, vec3 leaving) {
-    vec3 entering = enteringLight(pixel, material);
-    vec3 light = isFinite(entering) ? mix(entering, leaving, strengthAt(pixel, material)) : leaving;
+// Writes a pixel of a material, given its light before the albedo that is applied after scattering.
+void writeLight(ivec2 pixel, uint material, vec3 light) {
     if (hasFlag(flagAlbedo)) {
         vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
         light *= materials[material].preAndPost != 0u ? sqrt(albedo) : albedo;
     }
     imageStore(scatteredImage, pixel, vec4(light, 1.0));
+}
+
+// Writes a pixel of a material, given the light that leaves there before strength and albedo.
+void writeScattered(ivec2 pixel, uint material, vec3 leaving) {
+    float strength = strengthAt(pixel, material);
+    if (strength < 1.0) {
+        vec3 entering = enteringLight(pixel, material);
+        leaving = isFinite(entering) ? mix(entering, leaving, strength) : leaving;
+    }
+    writeLight(pixel, material, leaving);
 }
