@@ -22,6 +22,33 @@ std::uint32_t findMemoryType(const Gpu& gpu, std::uint32_t allowed, vk::MemoryPr
                         readableBytes(used) + " of " + readableBytes(size) + " are taken");
 }
 
+/// Throws RendererError when the device cannot make such an image.
+void checkLimits(const Gpu& gpu, const vk::ImageCreateInfo& info, const std::string& name) {
+    vk::ImageFormatProperties limits;
+    try {
+        limits = gpu.physicalDevice.getImageFormatProperties(info.format, info.imageType, info.tiling, info.usage,
+                                                             info.flags);
+    } catch (const vk::FormatNotSupportedError&) {
+        throw RendererError("the Vulkan device has no images of format " + vk::to_string(info.format) +
+                            " that can be what the " + name + " has to be");
+    }
+    const std::string size = std::to_string(info.extent.width) + "x" + std::to_string(info.extent.height) +
+                             " pixels in " + std::to_string(info.arrayLayers) + " layers";
+    if (info.extent.width > limits.maxExtent.width || info.extent.height > limits.maxExtent.height ||
+        info.arrayLayers > limits.maxArrayLayers) {
+        throw RendererError("the " + name + " of " + size + " is beyond the Vulkan device's limits of " +
+                            std::to_string(limits.maxExtent.width) + "x" + std::to_string(limits.maxExtent.height) +
+                            " in " + std::to_string(limits.maxArrayLayers));
+    }
+    const std::uint64_t bytes =
+        std::uint64_t{pixelBytes(info.format)} * info.extent.width * info.extent.height * info.arrayLayers;
+    if (bytes > limits.maxResourceSize) {
+        throw RendererError("the " + name + " of " + size + " needs " + readableBytes(bytes) +
+                            " of memory, more than the Vulkan device's limit of " +
+                            readableBytes(limits.maxResourceSize) + " for one image");
+    }
+}
+
 } // namespace
 
 Memory::Memory(Gpu& gpu, const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
@@ -80,16 +107,9 @@ bool Usage::writes() const {
 }
 
 Image::Image(Gpu& gpu, const ImageInfo& info) : info_(info) {
-    const std::uint32_t largest = gpu.limits.maxImageDimension2D;
-    if (info.extent.width > largest || info.extent.height > largest || info.layers > gpu.limits.maxImageArrayLayers) {
-        throw RendererError("the " + info.name + " of " + std::to_string(info.extent.width) + "x" +
-                            std::to_string(info.extent.height) + " pixels in " + std::to_string(info.layers) +
-                            " layers is beyond the Vulkan device's limits of " + std::to_string(largest) + "x" +
-                            std::to_string(largest) + " in " + std::to_string(gpu.limits.maxImageArrayLayers));
-    }
-    const bool cube = info.viewType == vk::ImageViewType::eCube;
-    image_ =
-        vk::raii::Image(gpu.device, {.flags = cube ? vk::ImageCreateFlagBits::eCubeCompatible : vk::ImageCreateFlags{},
+    const vk::ImageCreateInfo create{.flags = info.viewType == vk::ImageViewType::eCube
+                                                  ? vk::ImageCreateFlagBits::eCubeCompatible
+                                                  : vk::ImageCreateFlags{},
                                      .imageType = vk::ImageType::e2D,
                                      .format = info.format,
                                      .extent = {.width = info.extent.width, .height = info.extent.height, .depth = 1},
@@ -97,7 +117,9 @@ Image::Image(Gpu& gpu, const ImageInfo& info) : info_(info) {
                                      .arrayLayers = info.layers,
                                      .samples = vk::SampleCountFlagBits::e1,
                                      .tiling = vk::ImageTiling::eOptimal,
-                                     .usage = info.usage});
+                                     .usage = info.usage};
+    checkLimits(gpu, create, info.name);
+    image_ = vk::raii::Image(gpu.device, create);
     gpu.name(image_, info.name);
     memory_ = Memory(gpu, image_.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal, info.name);
     image_.bindMemory(*memory_.handle(), 0);

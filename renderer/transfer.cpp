@@ -105,13 +105,14 @@ std::uint32_t pixelBytes(vk::Format format) {
     case vk::Format::eR16Sfloat:
         return 2;
     case vk::Format::eR32Sfloat:
+    case vk::Format::eD32Sfloat:
     case vk::Format::eR8G8B8A8Unorm:
     case vk::Format::eR8G8B8A8Srgb:
         return 4;
     case vk::Format::eR16G16B16A16Sfloat:
         return 8;
     default:
-        throw RendererError("the renderer cannot read back images of format " + vk::to_string(format));
+        throw RendererError("the renderer has no images of format " + vk::to_string(format));
     }
 }
 
