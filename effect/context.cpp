@@ -139,6 +139,9 @@ std::span<const char* const> passNames(std::size_t technique) {
             for (const Pass& pass : techniques[i]->passes) {
                 all[i].push_back(pass.name);
             }
+            if (!techniques[i]->materialPasses.empty()) {
+                all[i].push_back(techniques[i]->materialPassesName);
+            }
         }
         return all;
     }();
@@ -148,8 +151,10 @@ std::span<const char* const> passNames(std::size_t technique) {
 NacreCost costOf(const Context& context, std::size_t technique) {
     const std::span<const char* const> names = passNames(technique);
     NacreCost cost{};
-    cost.dispatchCount = static_cast<std::uint32_t>(names.size());
-    cost.passCount = cost.dispatchCount;
+    cost.dispatchesPerMaterial = static_cast<std::uint32_t>(techniques[technique]->materialPasses.size());
+    cost.dispatchCount = static_cast<std::uint32_t>(techniques[technique]->passes.size()) +
+                         cost.dispatchesPerMaterial * context.materials->setCount();
+    cost.passCount = static_cast<std::uint32_t>(names.size());
     cost.passNames = names.data();
     for (std::size_t i = 0; i < intermediateCount; ++i) {
         if (techniques[technique]->uses() >> i & 1u) {

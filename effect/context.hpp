@@ -57,7 +57,9 @@ struct Context {
 
     Programs scatter;
     Programs transmit;
-    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass
+    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass, then materialPasses
+    std::vector<Owned<VkPipeline>> bakedThesis; ///< the thesis's materialPasses; empty = not baked
+    std::uint32_t bakedThesisRadius = 0;
     std::array<IntermediateResource, intermediateCount> intermediates;
     std::optional<MaterialTable> materials; ///< made once the device is known
     Buffer uniforms;
@@ -87,12 +89,18 @@ template <typename Body> NacreResult guard(NacreMessageCallback callback, void* 
 
 /// Creates layouts and pipelines (programs.cpp).
 void createPrograms(Context& context, VkPipelineCache cache);
+/// Compiles a pass, with its specialization constants if it has any (programs.cpp).
+Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache,
+                                 const VkSpecializationInfo* constants = nullptr);
 /// Allocates the intermediates for an extent (programs.cpp).
 std::array<IntermediateResource, intermediateCount> createIntermediates(const Context& context, VkExtent2D extent);
 /// Allocates descriptor sets and uniform memory of all frames (frames.cpp).
 void createFrames(Context& context, std::uint32_t frames, std::uint32_t recordsPerFrame);
 /// The next unused record of a kind; throws when the frame was not begun or has none left.
 Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info);
+
+/// The radius or, for 0, the default; throws a Failure naming `field` (scatter_thesis.cpp).
+std::uint32_t thesisRadius(std::uint32_t radius, const char* field);
 
 /// The index in `techniques` of a technique the context is made for; throws a Failure naming `field` (scatter.cpp).
 std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique technique, const char* field);

@@ -11,8 +11,8 @@ namespace nacre::effect {
     X(GetPhysicalDeviceProperties)
 #define NACRE_DEVICE_FUNCTIONS(X) \
     X(AllocateDescriptorSets) X(AllocateMemory) X(BindBufferMemory) X(BindImageMemory) X(CmdBindDescriptorSets) \
-    X(CmdBindPipeline) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdPipelineBarrier) X(CmdWriteTimestamp) \
-    X(CreateBuffer) X(CreateComputePipelines) X(CreateDescriptorPool) X(CreateDescriptorSetLayout) X(CreateImage) \
+    X(CmdBindPipeline) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdPipelineBarrier) X(CmdPushConstants) \
+    X(CmdWriteTimestamp) X(CreateBuffer) X(CreateComputePipelines) X(CreateDescriptorPool) X(CreateDescriptorSetLayout) X(CreateImage) \
     X(CreateImageView) X(CreatePipelineLayout) X(CreateShaderModule) X(DestroyBuffer) X(DestroyDescriptorPool) \
     X(DestroyDescriptorSetLayout) X(DestroyImage) X(DestroyImageView) X(DestroyPipeline) X(DestroyPipelineLayout) \
     X(DestroyShaderModule) X(FreeMemory) X(GetBufferMemoryRequirements) X(GetImageMemoryRequirements) X(MapMemory) \

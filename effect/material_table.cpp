@@ -80,12 +80,15 @@ MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterial, st
         size += (bytes + alignment - 1) / alignment * alignment;
     }
     current_.resize(size);
+    isSet_.resize(maxMaterial + 1);
     frames_.resize(frames);
     for (Frame& frame : frames_) {
         frame.buffer = createHostBuffer(device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre materials");
         std::memset(frame.buffer.mapped, 0, size);
         frame.changed.reserve(maxMaterial + 1);
         frame.isChanged.resize(maxMaterial + 1);
+        frame.ids.reserve(maxMaterial + 1);
+        frame.isSet.resize(maxMaterial + 1);
     }
 }
 
@@ -119,6 +122,8 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
             std::memcpy(current_.data() + section.offset + section.stride * id, block, section.stride);
             block += section.stride;
         }
+        setCount_ += isSet_[id] ? 0 : 1;
+        isSet_[id] = true;
         for (Frame& frame : frames_) {
             if (!frame.isChanged[id]) {
                 frame.isChanged[id] = true;
@@ -148,6 +153,10 @@ void MaterialTable::update(std::uint32_t index) {
             std::memcpy(frame.buffer.mapped + at, current_.data() + at, section.stride);
         }
         frame.isChanged[id] = false;
+        if (!frame.isSet[id]) {
+            frame.isSet[id] = true;
+            frame.ids.push_back(id);
+        }
     }
     frame.changed.clear();
     frame.haveSeparate = haveSeparate_;

@@ -20,13 +20,15 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
     {.name = "nacre bank tiles", .bytes = bankTileBytes},
 }};
 
-const std::array<const Technique*, techniqueCount> techniques{&separableTechnique, &bruteTechnique, &bankTechnique,
-                                                              &transmitTechnique};
+const std::array<const Technique*, techniqueCount> techniques{
+    &separableTechnique, &bruteTechnique, &bankTechnique, &burleyTechnique, &thesisTechnique, &transmitTechnique};
 
 IntermediateSet Technique::uses() const {
     IntermediateSet set = 0;
-    for (const Pass& pass : passes) {
-        set |= pass.reads | pass.writes;
+    for (const std::span<const Pass> part : {passes, materialPasses}) {
+        for (const Pass& pass : part) {
+            set |= pass.reads | pass.writes;
+        }
     }
     return set;
 }

@@ -68,6 +68,11 @@ template <std::uint32_t width, std::uint32_t height> VkExtent3D tiles(VkExtent2D
 /// The share of the light within MaterialParameters::radius, at which the tables of the techniques end.
 inline constexpr double radiusShare = 0.999;
 
+/// A table entry of the shaders.
+inline vec4 toVec4(const Rgb& rgb, double w) {
+    return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]), static_cast<float>(w)};
+}
+
 /// A way to scatter, or transmit: its passes in order, and the table it needs of every material.
 struct Technique {
     const char* name;
@@ -75,6 +80,9 @@ struct Technique {
     std::size_t tableBytes; ///< per material, a multiple of 16
     /// Fills one material's table (tableBytes, zeroed).
     void (*buildTable)(const Material& material, const Profile& profile, std::span<std::byte> table);
+    /// After `passes`, for one material after another; its id is pushed. Timed as one, under materialPassesName.
+    std::span<const Pass> materialPasses = {};
+    const char* materialPassesName = nullptr;
 
     IntermediateSet uses() const;
 };
@@ -82,10 +90,12 @@ struct Technique {
 extern const Technique separableTechnique; // scatter_separable.cpp
 extern const Technique bruteTechnique;     // scatter_brute.cpp
 extern const Technique bankTechnique;      // scatter_bank.cpp
+extern const Technique burleyTechnique;    // scatter_burley.cpp
+extern const Technique thesisTechnique;    // scatter_thesis.cpp
 extern const Technique transmitTechnique;  // transmit.cpp
 
 /// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
-inline constexpr std::size_t scatterTechniqueCount = 3;
+inline constexpr std::size_t scatterTechniqueCount = 5;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;

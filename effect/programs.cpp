@@ -57,14 +57,19 @@ void createLayout(Context& context, Programs& programs, std::span<const Binding>
     VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     layoutInfo.setLayoutCount = 1;
     layoutInfo.pSetLayouts = &setLayout;
+    const VkPushConstantRange materialId{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(std::uint32_t)};
+    layoutInfo.pushConstantRangeCount = 1;
+    layoutInfo.pPushConstantRanges = &materialId;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(device.vk.CreatePipelineLayout(device.handle, &layoutInfo, device.allocator, &layout),
           "vkCreatePipelineLayout");
     programs.layout = {device, layout, device.vk.DestroyPipelineLayout};
 }
 
-Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass,
-                                 VkPipelineCache cache) {
+} // namespace
+
+Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache,
+                                 const VkSpecializationInfo* constants) {
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     moduleInfo.codeSize = pass.spirv.size_bytes();
     moduleInfo.pCode = pass.spirv.data();
@@ -77,6 +82,7 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = handle;
     info.stage.pName = "main";
+    info.stage.pSpecializationInfo = constants;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(device.vk.CreateComputePipelines(device.handle, cache, 1, &info, device.allocator, &pipeline),
@@ -84,8 +90,6 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
     nameObject(device, VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), pass.name);
     return {device, pipeline, device.vk.DestroyPipeline};
 }
-
-} // namespace
 
 void createPrograms(Context& context, VkPipelineCache cache) {
     for (std::size_t i = 0; i < techniqueCount; ++i) {
@@ -100,8 +104,10 @@ void createPrograms(Context& context, VkPipelineCache cache) {
             continue;
         }
         const Programs& programs = i == transmitIndex ? context.transmit : context.scatter;
-        for (const Pass& pass : techniques[i]->passes) {
-            context.pipelines[i].push_back(createPipeline(context.device, programs.layout.get(), pass, cache));
+        for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
+            for (const Pass& pass : part) {
+                context.pipelines[i].push_back(createPipeline(context.device, programs.layout.get(), pass, cache));
+            }
         }
     }
 }

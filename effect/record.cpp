@@ -159,20 +159,35 @@ void recordPasses(const PassRecording& recording) {
     timestamp(recording, 0);
     IntermediateSet read = 0;
     IntermediateSet written = 0;
-    for (std::size_t i = 0; i < technique.passes.size(); ++i) {
-        const Pass& pass = technique.passes[i];
+    const auto record = [&](const Pass& pass, const Owned<VkPipeline>& pipeline) {
         if (((pass.reads | pass.writes) & written) != 0 || (pass.writes & read) != 0) {
             passBarrier(recording);
             read = written = 0;
         }
         beginLabel(recording, pass.name);
-        vk.CmdBindPipeline(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE,
-                           recording.context.pipelines[recording.technique][i].get());
+        vk.CmdBindPipeline(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
         dispatch(recording, pass);
         endLabel(recording);
-        timestamp(recording, static_cast<std::uint32_t>(i + 1));
         read |= pass.reads;
         written |= pass.writes;
+    };
+    const std::span pipelines(recording.context.pipelines[recording.technique]);
+    const auto passCount = static_cast<std::uint32_t>(technique.passes.size());
+    for (std::uint32_t i = 0; i < passCount; ++i) {
+        record(technique.passes[i], pipelines[i]);
+        timestamp(recording, i + 1);
+    }
+    if (!technique.materialPasses.empty()) {
+        const std::span materialPipelines =
+            recording.baked ? std::span(recording.context.bakedThesis) : pipelines.subspan(passCount);
+        for (const std::uint32_t id : recording.materials) {
+            vk.CmdPushConstants(recording.commandBuffer, recording.programs.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT,
+                                0, sizeof(id), &id);
+            for (std::size_t i = 0; i < technique.materialPasses.size(); ++i) {
+                record(technique.materialPasses[i], materialPipelines[i]);
+            }
+        }
+        timestamp(recording, passCount + 1);
     }
     endLabel(recording);
 }

@@ -43,6 +43,8 @@ struct PassRecording {
     VkDescriptorSet set;
     VkExtent2D area;
     NacreTimestamps timestamps;
+    std::span<const std::uint32_t> materials = {}; ///< ids the technique's materialPasses run for
+    bool baked = false;                            ///< those with the kernel of nacreBakeThesisKernel
 };
 
 /// Records the technique's passes with what lies between them: barriers, labels, timestamps.

@@ -31,6 +31,32 @@ float pixelWidth(const ViewParameters& view) {
     return std::sqrt(std::abs(x.x * y.y - x.y * y.x)) / std::abs(perspective ? view.clipW.x : view.clipW.y);
 }
 
+void setTechnique(ScatterParameters& parameters, const Context& context, const NacreScatterInfo& info) {
+    constexpr std::uint32_t defaultBudget = 64;
+    constexpr std::uint32_t largestBudget = 256;
+    if (info.burleySampleBudget > largestBudget) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::burleySampleBudget is ", info.burleySampleBudget,
+             ", must be in [1, ", largestBudget, "]");
+    }
+    parameters.burleySampleBudget = info.burleySampleBudget == 0 ? defaultBudget : info.burleySampleBudget;
+    parameters.burleyRotation = info.burleyRotation;
+    constexpr float defaultThesisStrength = 0.1f;
+    checkRange(info.thesisStrength, 0, 1e6f, "NacreScatterInfo::thesisStrength");
+    parameters.thesisStrength = info.thesisStrength == 0 ? defaultThesisStrength : info.thesisStrength;
+    parameters.thesisRadius = thesisRadius(info.thesisRadius, "NacreScatterInfo::thesisRadius");
+    if (info.technique != NACRE_TECHNIQUE_THESIS || !info.thesisBakedKernel) {
+        return;
+    }
+    if (context.bakedThesis.empty()) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisBakedKernel is ", info.thesisBakedKernel,
+             ", but nacreBakeThesisKernel was not called");
+    }
+    if (info.thesisRadius != 0 && info.thesisRadius != context.bakedThesisRadius) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisRadius is ", info.thesisRadius,
+             ", the baked kernel's is ", context.bakedThesisRadius);
+    }
+}
+
 void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatterInfo& info) {
     constexpr const char* name = "NacreScatterInfo";
     const std::size_t technique = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
@@ -57,6 +83,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     view.maxMaterial = context.materials->maxMaterial();
     view.flags |= context.materials->haveSeparate(info.frame) ? flagSeparateMaterials : 0u;
     parameters.pixelWidth = pixelWidth(view);
+    setTechnique(parameters, context, info);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
 
     // From here on nothing fails.
@@ -75,7 +102,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.intermediates(context, context.scatter.intermediates);
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
-    recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps});
+    recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
+                  context.materials->ids(info.frame), info.thesisBakedKernel != VK_FALSE});
 }
 
 } // namespace

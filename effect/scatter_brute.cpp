@@ -12,10 +12,6 @@
 namespace nacre::effect {
 namespace {
 
-vec4 toVec4(const Rgb& rgb, double w) {
-    return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]), static_cast<float>(w)};
-}
-
 void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
     BruteTable table{};
     if (const auto* gaussians = dynamic_cast<const SumOfGaussiansProfile*>(&profile)) {

@@ -26,8 +26,10 @@ struct mat4 {
     vec4 columns[4];
 };
 #define NACRE_CONSTANT inline constexpr uint
+#define NACRE_FUNCTION constexpr
 #else
 #define NACRE_CONSTANT const uint
+#define NACRE_FUNCTION
 #endif
 
 // Bindings of set 0. Scatter and transmit have one layout each; a number means the same in both.
@@ -91,6 +93,10 @@ struct ViewParameters {
 struct ScatterParameters {
     ViewParameters view;
     float pixelWidth; // mm a pixel spans at clip w 1, geometric mean of x and y
+    uint burleySampleBudget;
+    uint burleyRotation;
+    uint thesisRadius; // taps on either side
+    float thesisStrength;
     float unused0, unused1, unused2;
 };
 
@@ -139,6 +145,27 @@ struct BankDispatch {
     uint count;   // tiles on the list
 };
 
+// Tables of `burley`, entry i: R in 1/mm² and share of the light within r = radius·share², share = i / (entries - 1).
+// radial's w is r² at which this part of the light within the radius has left in the widest channel: 1 - (1 - share)².
+NACRE_CONSTANT burleyEntries = 256;
+struct BurleyTable {
+    vec4 meanFreePath; // of Burley's profile; r = 0: the profile is in the tables
+    uint widest;       // the channel with the largest radius
+    float share;       // of its light within the radius
+    uint unused0, unused1;
+    vec4 radial[burleyEntries];
+    vec4 cumulative[burleyEntries];
+};
+
+// Table of `thesis`: the slice kernels of radius 1 … thesisMaxRadius, one after the other. Of each, the taps from the
+// middle on: weight, and the offset in w. They are symmetric.
+NACRE_CONSTANT thesisMaxRadius = 16;
+NACRE_CONSTANT thesisTaps = 152;      // = thesisKernelStart(thesisMaxRadius + 1)
+NACRE_CONSTANT thesisGroupSize = 128; // pixels of a row per thread group
+NACRE_FUNCTION uint thesisKernelStart(uint radius) {
+    return (radius - 1u) * (radius + 2u) / 2u;
+}
+
 // Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0.
 NACRE_CONSTANT transmittanceEntries = 127;
 struct TransmitTable {
@@ -165,12 +192,14 @@ struct LightParameters {
 static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
               offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
               sizeof(ViewParameters) == 240);
-static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && sizeof(ScatterParameters) == 256);
+static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && sizeof(ScatterParameters) == 272);
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
 static_assert(offsetof(MaterialParameters, set) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
 static_assert(sizeof(BrutePixel) == 32);
 static_assert(sizeof(BankDispatch) == 16);
+static_assert(offsetof(BurleyTable, radial) == 32 && sizeof(BurleyTable) == 16 * (2 + 2 * burleyEntries));
+static_assert(thesisKernelStart(1) == 0 && thesisKernelStart(thesisMaxRadius + 1) == thesisTaps);
 static_assert(sizeof(TransmitTable) == 16 * 128);
 static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 && offsetof(LightParameters, shadowSize) == 136 &&
               sizeof(LightParameters) == 144);
@@ -178,4 +207,5 @@ static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParamet
 } // namespace nacre::effect
 #endif
 #undef NACRE_CONSTANT
+#undef NACRE_FUNCTION
 #endif

@@ -91,6 +91,12 @@ typedef enum NacreTechnique {
     NACRE_TECHNIQUE_SEPARABLE = 1, /**< two passes, line-spread kernels, world-space bilateral weights */
     NACRE_TECHNIQUE_BRUTE = 2,     /**< every pixel within the 99.9 % radius; slow, the reference of the others */
     NACRE_TECHNIQUE_BANK = 3,      /**< mixtures of one bank of blurs; flat in radius, layers and materials */
+    NACRE_TECHNIQUE_BURLEY = 4,    /**< one pass, importance samples of a disc, one per 4 px of it up to a budget; noisy */
+    NACRE_TECHNIQUE_THESIS = 5,    /**< the baseline (Andersen, "Screen-Space Subsurface Scattering"): a pass pair per
+                                        material, a radius in texels. Its own rules: material strength narrows the step
+                                        between taps in place of mixing; other materials are black unless depth tells
+                                        them apart; exchange groups are not used; a surface's width on screen does not
+                                        follow the material's millimetres */
     NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
 } NacreTechnique;
 
@@ -247,6 +253,14 @@ typedef struct NacreScatterInfo {
     float normalBias;
     NacreImage strength;      /**< optional, red: multiplies the material's strength; without it 1 */
     NacreImage albedo;        /**< optional; without it the output is scattered irradiance and carries no albedo */
+    uint32_t burleySampleBudget; /**< [1 … 256] most samples per pixel; 0 = 64 */
+    uint32_t burleyRotation;     /**< turns the samples; equal values (modulo 64) give equal pictures. Counting frames
+                                      suits temporal anti-aliasing */
+    uint32_t thesisRadius;       /**< [1 … 16] taps on either side; 0 = 5, or the baked kernel's */
+    float thesisStrength;        /**< [> 0, 1e6] the thesis's sssStrength, in scene units: taps move by strength · 2 ·
+                                      1.92 / depth / radius texels per millimetre of kernel offset (at most to the
+                                      radius), and depth differences of 1 / (576 · strength) stop the light; 0 = 0.1 */
+    VkBool32 thesisBakedKernel;  /**< every material gets the kernel of nacreBakeThesisKernel, which is compiled in */
     NacreImage scattered;     /**< output; not the irradiance image. Where there is no subsurface scattering it is the
                                    irradiance (times the albedo when one is given) */
     NacreTimestamps timestamps;
@@ -292,10 +306,12 @@ typedef struct NacreTransmitInfo {
     NacreTimestamps timestamps;
 } NacreTransmitInfo;
 
-/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of materials and layers. */
+/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers and, but for
+ *  dispatchesPerMaterial, of materials. */
 typedef struct NacreCost {
-    uint32_t dispatchCount;
-    uint32_t passCount;
+    uint32_t dispatchCount;         /**< with the materials set so far */
+    uint32_t dispatchesPerMaterial; /**< how many of them each material takes: 2 for NACRE_TECHNIQUE_THESIS, else 0 */
+    uint32_t passCount;             /**< what is timed: one a dispatch; all of dispatchesPerMaterial together are one */
     const char* const* passNames; /**< static storage */
     VkDeviceSize intermediateBytes; /**< device memory of the images and buffers between its passes, at maxExtent */
     VkDeviceSize materialBytes;     /**< device memory its tables take per material and frame in flight */
@@ -321,6 +337,10 @@ NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent);
  *  the materials set before its nacreBeginFrame, whole. On error nothing changes. */
 NACRE_API NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count,
                                         const NacreMaterial* materials);
+/** Compiles the kernel of a material that is set, with this radius ([1 … 16] 0 = 5), into the passes that
+ *  NacreScatterInfo::thesisBakedKernel chooses, in place of an earlier one. Later changes of the material do not reach it.
+ *  The device must have finished with the context's work. On failure the earlier one stays. */
+NACRE_API NacreResult nacreBakeThesisKernel(NacreContext context, uint32_t materialId, uint32_t radius);
 /** Starts a frame: frame [0 … framesInFlight) may be recorded anew, with the materials set so far. The device must have
  *  finished what was recorded with this number before. Host work only; nothing is allocated. */
 NACRE_API NacreResult nacreBeginFrame(NacreContext context, uint32_t frame);
