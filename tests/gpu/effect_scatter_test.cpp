@@ -14,7 +14,8 @@ using namespace nacre::tests;
 
 namespace {
 
-constexpr NacreTechnique techniques[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK};
+constexpr NacreTechnique techniques[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK,
+                                         NACRE_TECHNIQUE_BURLEY};
 
 class ScatterTest : public GpuTest, public testing::WithParamInterface<NacreTechnique> {
 protected:
@@ -140,6 +141,7 @@ TEST_P(ScatterTest, SameLightPerAreaHoweverItIsSeen) {
     };
     const Material material = marble();
     const auto profile = makeProfile(material);
+    const double tolerance = GetParam() == NACRE_TECHNIQUE_BURLEY ? 0.03 : 0.02; // noise of 64 samples
     for (const Camera& camera : cameras) {
         ScatterInput input = ScatterInput::plane(camera.size, camera.size, camera.projection, camera.depth);
         for (std::uint32_t y = 0; y < camera.size; ++y) {
@@ -153,7 +155,7 @@ TEST_P(ScatterTest, SameLightPerAreaHoweverItIsSeen) {
             const double position = (x + 0.5 - camera.centerX) / camera.pixelsPerMillimetre;
             for (int channel = 0; channel < 3; ++channel) {
                 EXPECT_NEAR(result[input.index(x, camera.size / 2)][channel],
-                            profile->lineSpreadCumulative(channel, position), 0.02)
+                            profile->lineSpreadCumulative(channel, position), tolerance)
                     << camera.name << " at " << position << " mm";
             }
         }
@@ -185,7 +187,7 @@ TEST_P(ScatterTest, CostDoesNotDependOnMaterialsOrLayers) {
         EXPECT_EQ(callCounts().dispatches, static_cast<int>(cost.dispatchCount));
         EXPECT_EQ(callCounts().allocations, 0) << "recording allocates nothing";
         EXPECT_EQ(cost.dispatchCount, cost.passCount);
-        EXPECT_GT(cost.intermediateBytes, 0u);
+        EXPECT_EQ(cost.intermediateBytes > 0, GetParam() != NACRE_TECHNIQUE_BURLEY); // it has one pass
     }
 }
 

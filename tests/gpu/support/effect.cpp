@@ -202,8 +202,13 @@ void Effect::setMaterials(std::span<const Material> materials) {
 
 std::vector<Float4> Effect::scatter(const ScatterInput& input, NacreTechnique technique,
                                     const ScatterFormats& formats) {
+    return scatter(input, [technique](NacreScatterInfo& info) { info.technique = technique; }, formats);
+}
+
+std::vector<Float4> Effect::scatter(const ScatterInput& input, const std::function<void(NacreScatterInfo&)>& set,
+                                    const ScatterFormats& formats) {
     ScatterImages images(gpu, input, formats);
-    images.info.technique = technique;
+    set(images.info);
     NacreResult result = nacreBeginFrame(context, 0);
     gpu.run([&](VkCommandBuffer commandBuffer) {
         result = result == NACRE_SUCCESS ? nacreCmdScatter(context, commandBuffer, &images.info) : result;

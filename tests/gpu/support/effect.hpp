@@ -5,6 +5,7 @@
 #include "tests/gpu/support/gpu.hpp"
 
 #include <array>
+#include <functional>
 #include <optional>
 
 namespace nacre::tests {
@@ -73,6 +74,9 @@ public:
     void setMaterials(std::span<const Material> materials);
     /// Begins frame 0, scatters, and reads the result back as floats. Throws std::runtime_error with the message.
     std::vector<Float4> scatter(const ScatterInput& input, NacreTechnique technique,
+                                const ScatterFormats& formats = {});
+    /// The same with more than the technique set.
+    std::vector<Float4> scatter(const ScatterInput& input, const std::function<void(NacreScatterInfo&)>& set,
                                 const ScatterFormats& formats = {});
 
     Gpu& gpu;
