@@ -71,6 +71,58 @@ TEST_F(BadInputTest, FaultyMaterialFile) {
     expectRefused({"--material", "none.json"}, {"none.json", "No such file"});
 }
 
+struct SceneFault {
+    std::string name;
+    std::string text;
+    std::vector<std::string> parts;
+};
+
+std::string sceneWithMaterial(const std::string& material) {
+    return R"({"models": [{"model": "cube.obj", "material": )" + material + "}]}";
+}
+
+std::string layers(int count) {
+    std::string text;
+    for (int layer = 0; layer < count; ++layer) {
+        text += std::string(layer == 0 ? "" : ", ") + R"({"weight": [1, 1, 1], "variance": 1})";
+    }
+    return R"({"name": "m", "layers": [)" + text + "]}";
+}
+
+const std::vector<SceneFault> sceneFaults{
+    {"NotJson", "{models", {}},
+    {"Empty", "", {}},
+    {"UnknownKey", R"({"models": [{"model": "cube.obj"}], "colour": 3})", {"colour"}},
+    {"UnknownModelKey", R"({"models": [{"model": "cube.obj", "turn": 3}]})", {"turn"}},
+    {"NoModels", R"({"models": []})", {"models"}},
+    {"MissingModel", R"({"models": [{"model": "none.glb"}]})", {"none.glb"}},
+    {"Nan", R"({"models": [{"model": "cube.obj", "scale": NaN}]})", {}},
+    {"NegativeScale", R"({"models": [{"model": "cube.obj", "scale": -1}]})", {"scale", "-1"}},
+    {"WrongType", R"({"models": [{"model": 7}]})", {"model"}},
+    {"NegativeVariance",
+     sceneWithMaterial(R"({"layers": [{"weight": [1, 1, 1], "variance": -2}]})"),
+     {"variance", "-2"}},
+    {"TooManyLayers", sceneWithMaterial(layers(33)), {"layers", "33"}},
+    {"ZeroWeights", sceneWithMaterial(R"({"layers": [{"weight": [0, 0, 0], "variance": 1}]})"), {"weight"}},
+    {"UnknownPreset", sceneWithMaterial(R"("custard")"), {"custard"}},
+    {"MissingEnvironment",
+     R"({"models": [{"model": "cube.obj"}], "environment": {"image": "none.hdr"}})",
+     {"none.hdr"}},
+};
+
+class SceneFaultTest : public BadInputTest, public testing::WithParamInterface<SceneFault> {};
+
+TEST_P(SceneFaultTest, IsOneSentenceThatNamesFileAndField) {
+    writeText(folder() / "cube.obj", nacre::test::cubeObj);
+    writeText(folder() / "faulty.json", GetParam().text);
+    std::vector<std::string> parts = GetParam().parts;
+    parts.emplace_back("faulty.json");
+    expectRefused({"faulty.json"}, parts);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, SceneFaultTest, testing::ValuesIn(sceneFaults),
+                         [](const auto& test) { return test.param.name; });
+
 TEST_F(BadInputTest, UnwritableOutput) {
     writeText(folder() / "plain", "");
     expectRefused({"-o", "missing/picture.png"}, {"missing/picture.png", "missing"});

@@ -50,6 +50,22 @@ void redirect(const fs::path& file, int descriptor) {
 
 } // namespace
 
+const char* const cubeObj = R"(v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
 Outcome runNacre(const std::vector<std::string>& arguments, const fs::path& folder, const Environment& environment) {
     const fs::path logs = makeFolder("nacre-log");
     const pid_t process = fork();

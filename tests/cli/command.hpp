@@ -31,6 +31,9 @@ void expectComplaint(const Outcome& outcome, int exitCode, const std::vector<std
 std::string readText(const std::filesystem::path& file);
 void writeText(const std::filesystem::path& file, const std::string& text);
 
+/// A Wavefront OBJ cube of one unit.
+extern const char* const cubeObj;
+
 /// A test with a folder of its own, removed afterwards.
 class CommandTest : public testing::Test {
 protected:
