@@ -164,6 +164,7 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
                                       {settings.width, settings.height});
                    })),
       timer(gpu) {
+    subsurface.prepareSettings(settings);
     if (settings.copyFloor) {
         copyFloor.emplace(gpu, gbuffer, lighting.irradiance(), nearest);
         report.copyBytes = copyFloor->bytes();
@@ -205,7 +206,7 @@ void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& comma
     }
     if (settings.scatter) {
         const Label label(gpu, commandBuffer, "scatter");
-        subsurface.scatter(commandBuffer, frame, lighting.irradiance(), settings.technique);
+        subsurface.scatter(commandBuffer, frame, lighting.irradiance(), settings);
     }
     if (copyFloor) {
         recordPass(commandBuffer, "copy", [&] { copyFloor->record(commandBuffer); });
@@ -289,11 +290,9 @@ const FrameReport& Renderer::report() const {
     return implementation_->report;
 }
 
-void Renderer::setEffect(Technique technique, bool scatter, bool transmit) {
-    RenderSettings& settings = implementation_->settings;
-    settings.technique = technique;
-    settings.scatter = scatter;
-    settings.transmit = transmit;
+void Renderer::setEffect(const EffectSettings& settings) {
+    guard([&] { implementation_->subsurface.prepareSettings(settings); });
+    static_cast<EffectSettings&>(implementation_->settings) = settings;
 }
 
 void Renderer::setMaterials(const std::vector<Material>& materials) {
@@ -301,7 +300,10 @@ void Renderer::setMaterials(const std::vector<Material>& materials) {
         throw RendererError("the scene has " + std::to_string(implementation_->materialCount) +
                             " materials and cannot get " + std::to_string(materials.size()));
     }
-    guard([&] { implementation_->subsurface.setMaterials(materials); });
+    guard([&] {
+        implementation_->subsurface.setMaterials(materials);
+        implementation_->subsurface.prepareSettings(implementation_->settings);
+    });
 }
 
 } // namespace nacre::renderer

@@ -11,7 +11,7 @@
 namespace nacre::renderer {
 
 /// How the diffuse light of subsurface materials is spread.
-enum class Technique { Default, Bank, Separable, Brute };
+enum class Technique { Default, Bank, Separable, Burley, Thesis, Brute };
 
 /// Images that can be read back. All but Color are `samples` times as wide and as high as the picture.
 enum class Output {
@@ -28,13 +28,21 @@ enum class Output {
     Radiance     ///< R G B, the picture in linear light, before exposure and tone curve
 };
 
-struct RenderSettings {
-    std::uint32_t width = 1280;
-    std::uint32_t height = 720;
-    std::uint32_t shadowMapSize = 2048;
+/// What may change from frame to frame.
+struct EffectSettings {
     Technique technique = Technique::Default;
     bool scatter = true;
     bool transmit = true;
+    std::uint32_t burleySampleBudget = 0; ///< [1 … 256] most samples per pixel; 0 = the effect's default
+    std::uint32_t thesisRadius = 0;       ///< [1 … 16] taps on either side; 0 = the effect's default
+    float thesisStrength = 0;             ///< [> 0] in scene units, see NacreScatterInfo; 0 = the effect's default
+    bool thesisBakedKernel = false;       ///< the first material's kernel, compiled in, for all
+};
+
+struct RenderSettings : EffectSettings {
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint32_t shadowMapSize = 2048;
     /// [1 … 4] samples per axis and pixel: n² samples are tone mapped and averaged.
     std::uint32_t samples = 1;
     /// Adds half a bit of noise before rounding to 8 bits, against banding in smooth gradients.
@@ -95,8 +103,8 @@ public:
     /// The last frame's pixels.
     Pixels read(Output output) const;
     const FrameReport& report() const;
-    /// Changes what does not need new images: technique, scatter, transmit.
-    void setEffect(Technique technique, bool scatter, bool transmit);
+    /// From the next frame on.
+    void setEffect(const EffectSettings& settings);
     /// Replaces the scene's subsurface materials (same count) without rebuilding anything else.
     void setMaterials(const std::vector<Material>& materials);
 
