@@ -202,7 +202,7 @@ void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& comma
     subsurface.beginFrame(frameIndex);
     if (settings.transmit) {
         const Label label(gpu, commandBuffer, "transmit");
-        subsurface.transmit(commandBuffer, frame, shadowMaps.image());
+        subsurface.transmit(commandBuffer, frame, shadowMaps.image(), settings);
     }
     if (settings.scatter) {
         const Label label(gpu, commandBuffer, "scatter");

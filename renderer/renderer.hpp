@@ -37,6 +37,7 @@ struct EffectSettings {
     std::uint32_t thesisRadius = 0;       ///< [1 … 16] taps on either side; 0 = the effect's default
     float thesisStrength = 0;             ///< [> 0] in scene units, see NacreScatterInfo; 0 = the effect's default
     bool thesisBakedKernel = false;       ///< the first material's kernel, compiled in, for all
+    bool thesisTransmittance = false;     ///< T = Σ w·exp(−d²/v), the thesis's own form, see NacreTransmitInfo
 };
 
 struct RenderSettings : EffectSettings {

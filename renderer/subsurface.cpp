@@ -15,6 +15,10 @@ NacreTechnique convert(Technique technique) {
         return NACRE_TECHNIQUE_BANK;
     case Technique::Separable:
         return NACRE_TECHNIQUE_SEPARABLE;
+    case Technique::Burley:
+        return NACRE_TECHNIQUE_BURLEY;
+    case Technique::Thesis:
+        return NACRE_TECHNIQUE_THESIS;
     case Technique::Brute:
         return NACRE_TECHNIQUE_BRUTE;
     case Technique::Default:
@@ -151,6 +155,8 @@ void Subsurface::setMaterials(const std::vector<Material>& materials) {
     if (!converted.empty()) {
         check(nacreSetMaterials(context_.get(), 1, static_cast<std::uint32_t>(converted.size()), converted.data()));
     }
+    materialCount_ = materials.size();
+    bakedRadius_.reset();
     std::memcpy(translucencies_.mapped(), translucencies.data(), translucencies.size() * sizeof(float));
 }
 
@@ -168,7 +174,8 @@ void Subsurface::beginFrame(std::uint32_t index) {
     check(nacreBeginFrame(context_.get(), index));
 }
 
-void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps) {
+void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
+                          const EffectSettings& settings) {
     GBuffer& gbuffer = frame.gbuffer;
     Image& depth = gbuffer.image(GBuffer::Depth);
     Image& materialId = gbuffer.image(GBuffer::MaterialId);
@@ -194,14 +201,23 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     info.lights = lights_.data();
     info.shadowMapCount = 1;
     info.shadowMaps = &maps;
+    info.thesisTransmittance = settings.thesisTransmittance;
     info.transmitted = convert(transmitted_);
     info.thicknessOut = convert(thickness_);
     info.timestamps = {frame.timer.pool(), frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ")};
     check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
 }
 
+void Subsurface::prepareSettings(const EffectSettings& settings) {
+    const bool bakes = settings.technique == Technique::Thesis && settings.thesisBakedKernel && materialCount_ > 0;
+    if (bakes && bakedRadius_ != settings.thesisRadius) {
+        check(nacreBakeThesisKernel(context_.get(), 1, settings.thesisRadius));
+        bakedRadius_ = settings.thesisRadius;
+    }
+}
+
 void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
-                         Technique technique) {
+                         const EffectSettings& settings) {
     GBuffer& gbuffer = frame.gbuffer;
     Image& depth = gbuffer.image(GBuffer::Depth);
     Image& materialId = gbuffer.image(GBuffer::MaterialId);
@@ -213,11 +229,15 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
                             {normal, usage::computeRead},
                             {albedo, usage::computeRead},
                             {scattered_, usage::computeWrite}});
-    const NacreCost cost = scatterCost(technique);
+    const NacreCost cost = scatterCost(settings.technique);
     NacreScatterInfo info{};
     info.view = makeView(frame.view);
     info.frame = frame.index;
-    info.technique = convert(technique);
+    info.technique = convert(settings.technique);
+    info.burleySampleBudget = settings.burleySampleBudget;
+    info.thesisRadius = settings.thesisRadius;
+    info.thesisStrength = settings.thesisStrength;
+    info.thesisBakedKernel = settings.thesisBakedKernel && materialCount_ > 0;
     info.irradiance = convert(irradiance);
     info.depth = convert(depth);
     info.materialId = convert(materialId);

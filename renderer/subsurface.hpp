@@ -7,6 +7,8 @@
 #include "renderer/lights.hpp"
 #include "renderer/renderer.hpp"
 
+#include <optional>
+
 namespace nacre::renderer {
 
 /// What the effect wants of an image beyond what the renderer does with it.
@@ -42,9 +44,13 @@ public:
 
     /// Before anything of frame `index` is recorded; its previous use must have finished.
     void beginFrame(std::uint32_t index);
-    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps);
+    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
+                  const EffectSettings& settings);
     void scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
-                 Technique technique);
+                 const EffectSettings& settings);
+    /// Compiles what the settings need beyond the context's own pipelines; the device must be idle. Before `scatter`
+    /// with new settings or materials.
+    void prepareSettings(const EffectSettings& settings);
     /// Replaces all materials; the device must be idle.
     void setMaterials(const std::vector<Material>& materials);
     NacreCost scatterCost(Technique technique) const;
@@ -64,7 +70,9 @@ private:
     Image transmitted_;
     Image thickness_;
     Buffer translucencies_;
-    std::unique_ptr<std::string> message_; ///< the effect's last error; its address is known to the context
+    std::size_t materialCount_ = 0;
+    std::optional<std::uint32_t> bakedRadius_; ///< of the first material as it is
+    std::unique_ptr<std::string> message_;     ///< the effect's last error; its address is known to the context
     std::unique_ptr<NacreContext_T, Destroy> context_;
 };
 
