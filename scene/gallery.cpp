@@ -16,7 +16,7 @@ namespace {
 
 using gallery::Body;
 
-constexpr std::size_t totalTriangles = 436508; // the thesis's scene, its table 4.1
+constexpr std::size_t totalTriangles = 436508; // as many as the thesis's five models together
 constexpr float millimetre = 0.001f;
 constexpr float plinthHeight = 0.06f, potHeight = 0.066f;
 
@@ -68,8 +68,8 @@ void addInstance(Scene& scene, Mesh mesh, std::uint32_t surface, const glm::mat4
 }
 
 void addStage(Scene& scene) {
-    const std::uint32_t stone = addSurface(scene, "plinth", {0.055f, 0.055f, 0.06f}, 0.9f);
-    const std::uint32_t floor = addSurface(scene, "ground", {0.05f, 0.05f, 0.055f}, 0.9f);
+    const std::uint32_t stone = addSurface(scene, "plinth", {0.038f, 0.038f, 0.042f}, 0.9f);
+    const std::uint32_t floor = addSurface(scene, "ground", {0.04f, 0.04f, 0.044f}, 0.9f);
     const std::uint32_t clay = addSurface(scene, "pot", {0.30f, 0.13f, 0.08f}, 0.7f);
     scene.surfaces[stone].specular = scene.surfaces[floor].specular = 0.15f; // dull: the back light must not dazzle
     const glm::mat4 identity(1);
@@ -156,8 +156,8 @@ void addLights(Scene& scene, GalleryLight which) {
         back.name = "back";
         back.kind = LightKind::Spot;
         back.color = {1, 0.93f, 0.82f};
-        back.intensity = 40;
-        back.position = {-0.10f, 0.98f, -1.15f};
+        back.intensity = 62;
+        back.position = {-0.14f, 0.78f, -1.25f};
         back.direction = glm::normalize(glm::vec3(0, 0.14f, 0) - back.position);
         back.innerConeAngle = glm::radians(20.f);
         back.outerConeAngle = glm::radians(27.f);

@@ -11,15 +11,15 @@ struct Body {
     std::vector<glm::vec3> normals; ///< unit, one a vertex
 };
 
-/// A bust, 310 mm tall, with closed eyes and ears of 3 mm.
+/// A bust, 306 mm tall, with closed eyes and ears 2 mm thin.
 Body makeHead(std::size_t triangles);
-/// A crouching dragon, wings spread; membranes and fins of 2 to 3 mm.
+/// A crouching dragon, wings spread; membranes and fins 2 to 3 mm thin.
 Body makeDragon(std::size_t triangles);
 /// The word NACRE, extruded and bevelled.
 Body makeLogo(std::size_t triangles);
 /// A nautilus shell with a wall of 2 mm, its axis along z.
 Body makeShell(std::size_t triangles);
-/// Broad leaves of 0.8 mm on stems.
+/// Broad leaves of 0.4 mm, thicker along their veins, on stems.
 Body makePlant(std::size_t triangles);
 
 /// Texture coordinates of a point of the head [mm]: the direction from the middle of the head, azimuthal equidistant

@@ -164,7 +164,7 @@ void addEar(ImplicitSurface& head, float side) {
         const float outline = (std::sqrt(x * x + y * y) - 1) * 17;
         const float hollow =
             2.5f - 9 * bell((q.x - 9) / 9) * bell((q.y + 5) / 12) - 2.5f * bell((q.x - 22) / 6) * bell((q.y - 8) / 16);
-        const float sheet = std::abs(q.z - hollow) - 1.3f;
+        const float sheet = std::abs(q.z - hollow) - 1.1f;
         return 0.85f * smoothMaximum(outline, sheet, 2);
     });
     tube({{{6, -2, 0}, 2.2f},
