@@ -22,10 +22,10 @@ namespace constants {
 static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
 static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
               constants::bankBinCount == BankTable::binCount);
-static_assert(BankTable::halvesPerBin == 24);
+static_assert(BankTable::halvesPerBin == 2 * bankBinWords);
 
-constexpr std::size_t tableBytes = 16 * bankTableWords;
-static_assert(bankTableWords == 1 + 3 * constants::bankBinCount);
+constexpr std::size_t tableBytes = sizeof(std::uint32_t) * bankTableWords;
+static_assert(bankTableWords == bankTableHead + bankBinWords * constants::bankBinCount && tableBytes % 16 == 0);
 
 constexpr std::uint32_t tileSize = 32;          // px, bank.glsl
 constexpr std::uint32_t blurSide = 16;          // texels, bank_blur.comp
@@ -55,7 +55,8 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
     const BankTable table(profile);
     const float offset = table.binOffset();
     std::memcpy(bytes.data(), &offset, sizeof(offset));
-    std::memcpy(bytes.data() + 16, table.halves().data(), table.halves().size_bytes());
+    std::memcpy(bytes.data() + sizeof(std::uint32_t) * bankTableHead, table.halves().data(),
+                table.halves().size_bytes());
 }
 
 constexpr IntermediateSet pyramids = bit(Intermediate::BankRaw) | bit(Intermediate::BankBlurred);

@@ -12,7 +12,8 @@ const int threads = 128;
 const int side = 16;
 const int halo = 2;
 const int pitch = side + 2 * halo;
-const float binomial[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
+// The five weights, and a 0 on either side for the rows that only one of a pair of texels reads.
+const float binomial[7] = float[](0.0, 1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0, 0.0);
 
 shared uvec4 texels[pitch * pitch];
 shared uint occupiedNear;
@@ -126,15 +127,13 @@ void blurPair(int level, int center, out BlurredTexel upper, out BlurredTexel lo
     float lowerWidth = texelWidth(level, lower.depth);
     Sums upperSums = Sums(vec3(0.0), 0.0, 0.0, 0.0);
     Sums lowerSums = upperSums;
-    [[unroll]] for (int y = 0; y < 6; ++y) {
+    [[dont_unroll]] for (int y = 0; y < 6; ++y) {
+        float upperRow = binomial[y + 1];
+        float lowerRow = binomial[y];
         [[unroll]] for (int x = 0; x < 5; ++x) {
             RawTexel tap = unpackRaw(texels[center + x - halo + (y - halo) * pitch]);
-            if (y < 5) {
-                addTap(upperSums, tap, upper, binomial[x] * binomial[y], upperWidth);
-            }
-            if (y > 0) {
-                addTap(lowerSums, tap, lower, binomial[x] * binomial[y - 1], lowerWidth);
-            }
+            addTap(upperSums, tap, upper, binomial[x + 1] * upperRow, upperWidth);
+            addTap(lowerSums, tap, lower, binomial[x + 1] * lowerRow, lowerWidth);
         }
     }
     upper.mass = upperSums.mass / max(upperSums.counted, bankLeastWeight);

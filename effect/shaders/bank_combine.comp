@@ -8,7 +8,7 @@
 
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
-    uvec4 bankTables[]; // bankTableWords a material: the bin offset, then three words of 8 halves a bin
+    uint bankTables[]; // bankTableWords a material: the bin offset, unused, then 24 halves a bin
 };
 
 const int threads = 128;
@@ -43,9 +43,10 @@ struct Sum {
     vec3 mass;
 };
 
-// The weights of the 8 kernels, 3 halves each, in order.
-struct Weights {
-    uint words[12];
+// Where a material's weights at a depth are in the table: between two bins.
+struct Mixture {
+    uint bin;
+    float fraction; // [0, 1] towards the next bin
 };
 
 Pixel pixelAt(int index) {
@@ -130,30 +131,24 @@ void loadRegion(ivec2 region, int thread) {
     }
 }
 
-Weights loadWeights(uint material, float depth) {
+Mixture findMixture(uint material, float depth) {
     uint first = material * bankTableWords;
-    float offset = uintBitsToFloat(bankTables[first].x);
-    float position = offset - float(bankBinsPerOctave) * log2(texelWidth(0, depth));
+    float position = uintBitsToFloat(bankTables[first]) - float(bankBinsPerOctave) * log2(texelWidth(0, depth));
     position = clamp(position, 0.0, float(bankBinCount - 1));
     uint bin = min(uint(position), uint(bankBinCount - 2));
-    float fraction = position - float(bin);
-    Weights weights;
-    for (uint i = 0u; i < 3u; ++i) {
-        uvec4 low = bankTables[first + 1u + 3u * bin + i];
-        uvec4 high = bankTables[first + 4u + 3u * bin + i];
-        for (uint j = 0u; j < 4u; ++j) {
-            weights.words[4u * i + j] =
-                packHalf2x16(mix(unpackHalf2x16(low[j]), unpackHalf2x16(high[j]), fraction));
-        }
-    }
-    return weights;
+    return Mixture(first + bankTableHead + bin * bankBinWords, position - float(bin));
 }
 
-vec3 kernelWeight(Weights weights, int kernel) {
-    int word = 3 * kernel / 2;
-    vec2 first = unpackHalf2x16(weights.words[word]);
-    vec2 second = unpackHalf2x16(weights.words[word + 1]);
-    return kernel % 2 == 0 ? vec3(first, second.x) : vec3(first.y, second);
+// Red, green and blue of a kernel: halves 3·kernel … of the bin.
+vec3 binWeight(uint bin, int kernel) {
+    uint word = bin + uint(3 * kernel / 2);
+    vec2 first = unpackHalf2x16(bankTables[word]);
+    vec2 second = unpackHalf2x16(bankTables[word + 1u]);
+    return (kernel & 1) == 0 ? vec3(first, second.x) : vec3(first.y, second);
+}
+
+vec3 kernelWeight(Mixture mixture, int kernel) {
+    return mix(binWeight(mixture.bin, kernel), binWeight(mixture.bin + bankBinWords, kernel), mixture.fraction);
 }
 
 void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
@@ -163,6 +158,12 @@ void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
 
 // The identity and the full-resolution 3x3 of the quad's four pixels. `first` is the pixel up and left of the quad.
 #ifdef SMOOTH
+#define UNROLL_LEVELS [[unroll]]
+#else // its levels are long; unrolled they would take drivers seconds to compile
+#define UNROLL_LEVELS [[dont_unroll]]
+#endif
+
+#ifdef SMOOTH
 // Red, green and blue of a pixel, and 1, or 0 where it gives no light.
 vec4 lightAt(int index) {
     uvec2 words = pixelLight[index];
@@ -171,7 +172,7 @@ vec4 lightAt(int index) {
 }
 
 // How much a tap beside the centre weighs on the slope the quad stands on, in x and y.
-vec2 weightBeside(int first, bvec4 members, float depths[4], float depth) {
+vec2 weightBeside(int first, bvec4 members, vec4 depths, float depth) {
     vec2 steps = vec2(0.0);
     vec2 pairs = vec2(0.0);
     [[unroll]] for (int i = 0; i < 2; ++i) {
@@ -186,7 +187,7 @@ vec2 weightBeside(int first, bvec4 members, float depths[4], float depth) {
 }
 
 // Taps have the depths of that slope, which makes their weights separable.
-void addPixels(inout Sum sums[4], Weights weights, int first, bvec4 members, float depths[4], float depth) {
+void addPixels(inout Sum sums[4], Mixture mixture, int first, bvec4 members, vec4 depths, float depth) {
     vec2 beside = weightBeside(first, members, depths, depth);
     vec2 total = 1.0 + 2.0 * beside;
     vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
@@ -204,16 +205,20 @@ void addPixels(inout Sum sums[4], Weights weights, int first, bvec4 members, flo
         }
     }
     float scale = 1.0 / (total.x * total.y);
+    vec3 identityWeight = kernelWeight(mixture, 0);
+    vec3 pixelsWeight = kernelWeight(mixture, 1);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
         vec4 blurred = scale * (rows[y + 1][x] + beside.y * (rows[y][x] + rows[y + 2][x]));
-        add(sums[i], kernelWeight(weights, 0), own[i]);
-        add(sums[i], kernelWeight(weights, 1), blurred);
+        add(sums[i], identityWeight, own[i]);
+        add(sums[i], pixelsWeight, blurred);
     }
 }
 #else
-void addPixels(inout Sum sums[4], Weights weights, int first, bvec4 members, float depths[4], float depth) {
+void addPixels(inout Sum sums[4], Mixture mixture, int first, bvec4 members, vec4 depths, float depth) {
+    vec3 identityWeight = kernelWeight(mixture, 0);
+    vec3 pixelsWeight = kernelWeight(mixture, 1);
     for (int i = 0; i < 4; ++i) {
         if (!members[i]) {
             continue;
@@ -234,8 +239,8 @@ void addPixels(inout Sum sums[4], Weights weights, int first, bvec4 members, flo
             counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
             light += taken ? weight * vec4(tap.light, 1.0) : vec4(0.0);
         }
-        add(sums[i], kernelWeight(weights, 0), own.gives ? vec4(own.light, 1.0) : vec4(0.0));
-        add(sums[i], kernelWeight(weights, 1), light / counted);
+        add(sums[i], identityWeight, own.gives ? vec4(own.light, 1.0) : vec4(0.0));
+        add(sums[i], pixelsWeight, light / counted);
     }
 }
 #endif
@@ -283,7 +288,7 @@ int levelCorner(int level, ivec2 region, ivec2 local, out vec2 fraction) {
 
 #ifdef SMOOTH
 // Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
-void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad, uint material, float depths[4]) {
+void addFinestLevel(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, uint material, vec4 depths) {
     ivec2 inRegion = (quad >> 1) - levelFirst(1, region) - 1;
     int corner = levelStart[1] + inRegion.y * levelPitch[1].x + inRegion.x;
     vec4 rows[3][2];
@@ -293,14 +298,15 @@ void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad
         rows[y][0] = mix(middle, texelLight(index), 0.25);
         rows[y][1] = mix(middle, texelLight(index + 2), 0.25);
     }
+    vec3 weight = kernelWeight(mixture, 2);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        vec4 light = mix(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25);
-        add(sums[i], kernelWeight(weights, 2), light);
+        add(sums[i], weight, mix(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25));
     }
 }
 #else
 // Level 1, whose texels are the quads: each pixel has texels and depth weights of its own.
-void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad, uint material, float depths[4]) {
+void addFinestLevel(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, uint material, vec4 depths) {
+    vec3 weight = kernelWeight(mixture, 2);
     for (int i = 0; i < 4; ++i) {
         vec2 fraction;
         int corner = levelCorner(1, region, quad + ivec2(i & 1, i >> 1), fraction);
@@ -308,14 +314,14 @@ void addFinestLevel(inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad
         for (int j = 0; j < 4; ++j) {
             taps[j] = loadTap(corner + (j & 1) + (j >> 1) * levelPitch[1].x, 1, depths[i], material);
         }
-        addTaps(sums[i], kernelWeight(weights, 2), taps, fraction);
+        addTaps(sums[i], weight, taps, fraction);
     }
 }
 #endif
 
 // A coarser level: the quad's pixels lie between the same four texels.
-void addLevel(int level, inout Sum sums[4], Weights weights, ivec2 region, ivec2 quad, uint material, float depth) {
-    vec3 weight = kernelWeight(weights, level + 1);
+void addLevel(int level, inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, uint material, float depth) {
+    vec3 weight = kernelWeight(mixture, level + 1);
     if (weight == vec3(0.0)) {
         return;
     }
@@ -343,56 +349,69 @@ void addLevel(int level, inout Sum sums[4], Weights weights, ivec2 region, ivec2
     }
 }
 
-// The quad's pixels that share a material and a surface, with the weights taken at the first of them.
-void combineGroup(ivec2 region, ivec2 quad, int first, uint material, float depth, float depths[4], bvec4 members) {
-    Weights weights = loadWeights(material, depth);
+// The quad's pixels that share a material and a surface, with the mixture taken at the first of them.
+void combineGroup(ivec2 region, ivec2 quad, int first, uint material, float depth, vec4 depths, bvec4 members,
+                  inout vec3 results[4]) {
+    Mixture mixture = findMixture(material, depth);
     Sum sums[4];
     for (int i = 0; i < 4; ++i) {
         sums[i] = Sum(vec3(0.0), vec3(0.0));
     }
-    addPixels(sums, weights, first, members, depths, depth);
-    addFinestLevel(sums, weights, region, quad, material, depths);
-    [[unroll]] for (int level = 2; level <= bankLevels; ++level) {
-        addLevel(level, sums, weights, region, quad, material, depth);
+    addPixels(sums, mixture, first, members, depths, depth);
+    addFinestLevel(sums, mixture, region, quad, material, depths);
+    UNROLL_LEVELS for (int level = 2; level <= bankLevels; ++level) {
+        addLevel(level, sums, mixture, region, quad, material, depth);
     }
     for (int i = 0; i < 4; ++i) {
-        if (members[i]) {
-            ivec2 pixel = quad + ivec2(i & 1, i >> 1) + view.areaOffset;
-            writeScattered(pixel, material, sums[i].light / max(sums[i].mass, vec3(1e-20)));
-        }
+        results[i] = members[i] ? sums[i].light / max(sums[i].mass, vec3(1e-20)) : results[i];
     }
 }
 
+// Two pixels of a quad make a group when they have one material and, where the tile is not smooth, one surface.
+bool isOneGroup(uint material, float depth, uint leadersMaterial, float leadersDepth) {
+#ifdef SMOOTH
+    return material == leadersMaterial;
+#else
+    return material == leadersMaterial &&
+           abs(depth - leadersDepth) <= bankSurfaceSeparation * texelWidth(1, leadersDepth);
+#endif
+}
+
 void combineQuad(ivec2 region, ivec2 quad, int first) {
-    uint materialOf[4];
-    float depths[4];
+    uvec4 materialOf;
+    vec4 depths;
     bvec4 done;
+    vec3 results[4];
     for (int i = 0; i < 4; ++i) {
         Pixel pixel = pixelAt(first + 1 + (i & 1) + (1 + (i >> 1)) * pixelPitch.x);
         materialOf[i] = pixel.material;
         depths[i] = pixel.depth;
-        ivec2 local = quad + ivec2(i & 1, i >> 1);
-        bool inside = all(lessThan(local, view.areaExtent));
-        if (inside && pixel.material == 0u) {
-            writeUnscattered(local + view.areaOffset);
-        }
-        done[i] = !inside || pixel.material == 0u;
+        done[i] = pixel.material == 0u;
+        results[i] = vec3(0.0);
     }
-    for (int leader = 0; leader < 4; ++leader) {
-        if (done[leader]) {
-            continue;
+    [[dont_unroll]] for (int leader = 0; leader < 4; ++leader) {
+        if (!done[leader]) {
+            uint material = materialOf[leader];
+            float depth = depths[leader];
+            bvec4 members;
+            for (int i = 0; i < 4; ++i) {
+                members[i] = !done[i] && isOneGroup(materialOf[i], depths[i], material, depth);
+                done[i] = done[i] || members[i];
+            }
+            combineGroup(region, quad, first, material, depth, depths, members, results);
         }
-        bvec4 members = bvec4(false);
-        for (int i = leader; i < 4; ++i) {
-            bool member = !done[i] && materialOf[i] == materialOf[leader];
-#ifndef SMOOTH
-            float separation = bankSurfaceSeparation * texelWidth(1, depths[leader]);
-            member = member && abs(depths[i] - depths[leader]) <= separation;
-#endif
-            members[i] = member;
-            done[i] = done[i] || member;
+    }
+    [[dont_unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 local = quad + ivec2(i & 1, i >> 1);
+        if (all(lessThan(local, view.areaExtent))) {
+            if (materialOf[i] == 0u) {
+                writeUnscattered(local + view.areaOffset);
+            } else {
+                vec3 upper = (i & 1) == 0 ? results[0] : results[1];
+                vec3 lower = (i & 1) == 0 ? results[2] : results[3];
+                writeScattered(local + view.areaOffset, materialOf[i], i < 2 ? upper : lower);
+            }
         }
-        combineGroup(region, quad, first, materialOf[leader], depths[leader], depths, members);
     }
 }
 

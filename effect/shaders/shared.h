@@ -135,9 +135,11 @@ struct BrutePixel {
     vec4 position; // view space, mm; w: material id
 };
 
-// Mixture table of `bank` in 16-byte words: the bin offset (a float), then 24 half floats a bin (BankTable in
-// nacre/bank.hpp).
-NACRE_CONSTANT bankTableWords = 340;
+// Mixture table of `bank` in 4-byte words: a head that holds the bin offset (a float), then 24 half floats a bin
+// (BankTable in nacre/bank.hpp).
+NACRE_CONSTANT bankTableHead = 4;
+NACRE_CONSTANT bankBinWords = 12;
+NACRE_CONSTANT bankTableWords = bankTableHead + 113 * bankBinWords;
 // Workgroups along x of the combination's dispatches; longer lists take several rows.
 NACRE_CONSTANT bankDispatchWidth = 32768;
 struct BankDispatch {
