@@ -74,6 +74,7 @@ Json describe(const renderer::FrameReport& frame) {
         passes.push_back({{"name", pass.name}, {"microseconds", pass.microseconds}});
     }
     return {{"totalMicroseconds", frame.totalMicroseconds},
+            {"recordingMicroseconds", frame.recordingMicroseconds},
             {"passes", passes},
             {"scatterDispatches", frame.scatterDispatches},
             {"transmitDispatches", frame.transmitDispatches},
