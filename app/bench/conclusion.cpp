@@ -23,11 +23,7 @@ std::string formatR2(const Line& line) {
     return "R² " + formatNumber(line.rSquared, 4);
 }
 
-bool grows(const Fit& fit) {
-    return !fit.flat && fit.line.slope > 0;
-}
-
-// "1 of 3"-style opening: what it was measured on and what counts as a difference.
+// What it was measured on and what counts as a difference.
 std::string opening(const Results& results) {
     double noise = 0;
     std::size_t fewest = results.measurements.front().effect.count;
@@ -51,10 +47,10 @@ std::vector<const Fit*> largestOf(std::vector<const Fit*> fits) {
 }
 
 std::string thesisSentence(const Fit& fit) {
-    const bool reproduced = grows(fit) && fit.line.rSquared >= linearFrom;
+    const bool reproduced = verdictOf(fit) == "grows" && fit.line.rSquared >= linearFrom;
     std::string text = "the thesis's technique grows by " + formatSlope(fit) + at(fit) + " (" + formatR2(fit.line) +
                        "), " + (reproduced ? "its straight line" : "which is not the thesis's straight line");
-    if (fit.series == "experiment 2" && reproduced && fit.line.slope > 0) {
+    if (fit.series == "experiment 2" && reproduced) {
         text += "; the hardware of 2011 needed " + formatTime(thesis::radiusSlope1080) + " at 1920x1080";
     }
     return text;
@@ -62,21 +58,25 @@ std::string thesisSentence(const Fit& fit) {
 
 std::string othersSentence(const std::vector<const Fit*>& fits) {
     std::vector<std::string> flat;
-    std::vector<std::string> growing;
+    std::vector<std::string> unclear;
+    std::vector<std::string> parts;
     for (const Fit* fit : fits) {
-        if (fit->flat) {
-            flat.push_back(fit->technique);
+        if (!fit->flat) {
+            parts.push_back(fit->technique + " " + verdictOf(*fit) + " by " + formatSlope(*fit));
         } else {
-            growing.push_back(fit->technique + (fit->line.slope > 0 ? " grows by " : " changes by ") +
-                              formatSlope(*fit));
+            (fit->noise < tooNoisy ? flat : unclear).push_back(fit->technique);
         }
     }
-    std::string text;
     if (!flat.empty()) {
-        text += join(flat) + (flat.size() == 1 ? " is" : " are") + " flat within its confidence or the noise";
+        parts.insert(parts.begin(),
+                     join(flat) + (flat.size() == 1 ? " is" : " are") + " flat within its confidence or the noise");
     }
-    if (!growing.empty()) {
-        text += (text.empty() ? "" : "; ") + join(growing);
+    if (!unclear.empty()) {
+        parts.push_back("of " + join(unclear) + " the noise hides whether it changes");
+    }
+    std::string text;
+    for (const std::string& part : parts) {
+        text += (text.empty() ? "" : "; ") + part;
     }
     return text;
 }

@@ -88,6 +88,13 @@ std::vector<Fit> fitSeries(const std::vector<Measurement>& measurements) {
     return fits;
 }
 
+std::string verdictOf(const Fit& fit) {
+    if (fit.flat) {
+        return fit.noise < tooNoisy ? "flat" : "too noisy to tell";
+    }
+    return fit.line.slope > 0 ? "grows" : "falls";
+}
+
 std::vector<const Fit*> fitsOf(const Results& results, std::string_view series, std::string_view quantity) {
     std::vector<const Fit*> fits;
     for (const Fit& candidate : results.fits) {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <stdexcept>
 
 namespace nacre::bench {
@@ -92,8 +91,8 @@ private:
         std::size_t done = 0;
         for (const Candidate& candidate : candidates_) {
             stage_.select(*candidate.configuration);
-            for (std::uint32_t frame = 0; frame < std::max(1u, settings_.warmUpFrames); ++frame) {
-                stage_.renderFrame();
+            for (std::uint32_t frame = 0; frame < settings_.warmUpFrames; ++frame) {
+                stage_.renderEffect();
             }
             progress("warming up", ++done, candidates_.size());
         }

@@ -26,7 +26,7 @@ Plan makeParetoPlan(const SuiteSettings& settings) {
             Series series{.name = "pareto, " + view->name + ", " + std::to_string(size.height),
                           .variable = "quality",
                           .withError = true};
-            for (Variant& variant : qualityVariants()) {
+            for (Variant& variant : qualityVariants(*view, size)) {
                 variant.effect.transmit = false;
                 series.configurations.push_back({.technique = variant.technique,
                                                  .effect = variant.effect,

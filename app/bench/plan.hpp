@@ -66,6 +66,10 @@ struct Plan {
 /// Pixels per millimetre at the camera's target.
 double pixelsPerMillimeter(const View& view, const Size& size);
 
+/// EffectSettings::thesisStrength at which the thesis's kernel of `radius` texels has its offsets where they belong at
+/// the camera's target.
+float thesisStrength(const View& view, const Size& size, std::uint32_t radius);
+
 /// px: rms radius of the widest channel of the widest material, at the camera's target.
 double footprint(const View& view, const Size& size, const std::vector<Material>& materials);
 

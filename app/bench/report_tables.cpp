@@ -46,11 +46,10 @@ std::string formatInterval(double low, double high) {
 }
 
 void addSlope(Table& table, const Fit& fit) {
-    const std::string verdict = fit.flat ? "flat" : fit.line.slope > 0 ? "grows" : "falls";
     table.add({fit.technique, fit.width == 0 ? "all" : formatSize(fit.width, fit.height), fit.quantity,
                formatSlope(fit), formatInterval(fit.line.slopeLow, fit.line.slopeHigh),
                formatNumber(fit.line.robustSlope), formatNumber(fit.line.rSquared, 4), formatTime(fit.line.intercept),
-               formatNumber(fit.growth) + "×", formatShare(fit.noise), verdict});
+               formatNumber(fit.growth) + "×", formatShare(fit.noise), verdictOf(fit)});
 }
 
 std::vector<std::string> slopeHeader() {

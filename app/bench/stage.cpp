@@ -37,10 +37,14 @@ bool Stage::select(const Configuration& configuration) {
 
 const renderer::FrameReport& Stage::renderFrame() {
     actor_->renderer.render(selected_->view->camera);
+    actor_->rendered = true;
     return actor_->renderer.report();
 }
 
 const renderer::FrameReport& Stage::renderEffect() {
+    if (!actor_->rendered) {
+        return renderFrame();
+    }
     actor_->renderer.renderEffect();
     return actor_->renderer.report();
 }

@@ -16,7 +16,7 @@ public:
     bool select(const Configuration& configuration);
     /// Renders the selected configuration.
     const renderer::FrameReport& renderFrame();
-    /// Repeats the effect of its last frame; the renderer must have rendered one.
+    /// Repeats the effect on its renderer's last frame, or renders one where there is none yet.
     const renderer::FrameReport& renderEffect();
     renderer::Pixels read(renderer::Output output) const { return actor_->renderer.read(output); }
 
@@ -24,6 +24,7 @@ private:
     struct Actor {
         renderer::Renderer renderer;
         const Configuration* configuration = nullptr;
+        bool rendered = false;
     };
     using Key = std::tuple<const View*, std::uint32_t, std::uint32_t, std::uint32_t>;
 

@@ -67,7 +67,7 @@ private:
 
     void add(Series& series, const std::shared_ptr<const View>& view, const Size& size,
              const std::vector<Material>& materials, double value) {
-        for (const Variant& variant : scatterVariants(usualRadius)) {
+        for (const Variant& variant : scatterVariants(*view, size, usualRadius)) {
             series.configurations.push_back({.technique = variant.technique,
                                              .effect = variant.effect,
                                              .view = view,

@@ -1,28 +1,25 @@
 // The techniques a benchmark compares, by the names the results use.
 #pragma once
 
-#include "renderer/renderer.hpp"
-
-#include <string>
-#include <vector>
+#include "app/bench/plan.hpp"
 
 namespace nacre::bench {
 
-/// A way to scatter at one quality.
+/// A way to scatter or transmit, at one quality.
 struct Variant {
     std::string technique;
     renderer::EffectSettings effect;
-    double quality = 0; ///< taps, samples …; 0 where the technique has no such setting
+    double quality = 0; ///< taps or samples; 0 where the technique has no such setting
 };
 
-/// Every scatter technique but the reference, at its default quality. `radius` [texels] is the kernel's where the
-/// technique counts in texels.
-std::vector<Variant> scatterVariants(std::uint32_t radius);
+/// Every scatter technique but the reference, at its default quality, "thesis" also with its kernel compiled in.
+/// `radius` [1 … 16] texels is that of the thesis's kernel, which is in scale for this view and size.
+std::vector<Variant> scatterVariants(const View& view, const Size& size, std::uint32_t radius);
 
-/// The ways to transmit.
+/// The ways to transmit, scattering off.
 std::vector<Variant> transmitVariants();
 
 /// Every scatter technique but the reference, at all its qualities.
-std::vector<Variant> qualityVariants();
+std::vector<Variant> qualityVariants(const View& view, const Size& size);
 
 } // namespace nacre::bench

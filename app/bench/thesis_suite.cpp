@@ -74,7 +74,7 @@ private:
     void addExperiment1(const std::string& side, const std::shared_ptr<const View>& view) {
         Series& series = plan_.series.emplace_back(Series{"experiment 1, " + side, "layers", "", {}});
         for (const Size& size : sizes()) {
-            for (const Variant& variant : scatterVariants(radiusOfExperiment1)) {
+            for (const Variant& variant : scatterVariants(*view, size, radiusOfExperiment1)) {
                 for (const int layers : layersOfExperiment1) {
                     series.configurations.push_back(configure(variant, view, size, sceneMaterials(layers), layers));
                 }
@@ -88,7 +88,7 @@ private:
             const double millimeters = 1 / pixelsPerMillimeter(*views_.front, size);
             for (int radius = firstRadius; radius <= thesis::largestRadius; ++radius) {
                 const Material material = withKernelRadius(skin_, radius * millimeters);
-                for (Variant& variant : scatterVariants(static_cast<std::uint32_t>(radius))) {
+                for (Variant& variant : scatterVariants(*views_.front, size, static_cast<std::uint32_t>(radius))) {
                     variant.effect.transmit = false;
                     series.configurations.push_back(
                         configure(variant, views_.front, size, everywhere(material), radius));

@@ -18,6 +18,8 @@
       chart.data.datasets.forEach((set, index) => {
         if (!chart.isDatasetVisible(index)) return;
         context.save();
+        const area = chart.chartArea;
+        const inside = (y) => Math.min(Math.max(y, area.top), area.bottom);
         context.strokeStyle = context.fillStyle = set.borderColor;
         context.lineWidth = 1.2;
         context.font = "11px sans-serif";
@@ -25,8 +27,8 @@
           const x = chart.scales.x.getPixelForValue(point.x);
           const y = chart.scales.y.getPixelForValue(point.y);
           if (point.high > point.low) {
-            const low = chart.scales.y.getPixelForValue(point.low);
-            const high = chart.scales.y.getPixelForValue(point.high);
+            const low = inside(chart.scales.y.getPixelForValue(point.low));
+            const high = inside(chart.scales.y.getPixelForValue(point.high));
             context.beginPath();
             context.moveTo(x, low); context.lineTo(x, high);
             context.moveTo(x - 4, low); context.lineTo(x + 4, low);
@@ -66,10 +68,18 @@
     return [1, 2, 5].includes(digit) ? value.toLocaleString("en") : "";
   }
 
+  // Whiskers fit in unless they are out of all proportion.
+  function roomForWhiskers(chart) {
+    const points = chart.sets.flatMap((set) => set.points);
+    const largest = Math.max(...points.map((point) => point.y));
+    return Math.min(Math.max(...points.map((point) => point.high)), 1.5 * largest);
+  }
+
   function draw(canvas, chart) {
     const options = {
       animation: false, maintainAspectRatio: false, devicePixelRatio: Math.max(2, window.devicePixelRatio || 1),
-      scales: { x: axis(chart.xLabel, chart.logX), y: axis(chart.yLabel, chart.logY) },
+      scales: { x: axis(chart.xLabel, chart.logX),
+                y: Object.assign(axis(chart.yLabel, chart.logY), { suggestedMax: roomForWhiskers(chart) }) },
       plugins: {
         legend: { position: "bottom", labels: { usePointStyle: true, boxWidth: 9, boxHeight: 7, color: "#1a1a1a", padding: 12 } },
       },
