@@ -1,11 +1,30 @@
 find_program(NACRE_GLSLC glslc REQUIRED)
 find_program(NACRE_SPIRV_VAL spirv-val)
+find_program(NACRE_SPIRV_CROSS spirv-cross)
 
-# nacre_shader(TARGET SOURCE [NAME name] [ENVIRONMENT vulkan1.2] [DEFINES A=1 ...])
+# nacre_translate(TARGET NAME GLSLC_ARGUMENTS...): one GLSL file as HLSL for shader model 5.0 and as MSL. Not optimised, so
+# that everything keeps its name. The files are listed in target property NACRE_TRANSLATIONS.
+function(nacre_translate target name)
+    set(directory ${PROJECT_BINARY_DIR}/translations)
+    set(spirv ${CMAKE_CURRENT_BINARY_DIR}/named_spirv/${name}.spv)
+    file(MAKE_DIRECTORY ${directory} ${CMAKE_CURRENT_BINARY_DIR}/named_spirv)
+    add_custom_command(
+        OUTPUT ${directory}/${name}.hlsl ${directory}/${name}.metal
+        COMMAND ${NACRE_GLSLC} ${ARGN} -MD -MF ${spirv}.d -MT ${directory}/${name}.hlsl -o ${spirv}
+        COMMAND ${NACRE_SPIRV_CROSS} ${spirv} --hlsl --shader-model 50 --output ${directory}/${name}.hlsl
+        COMMAND ${NACRE_SPIRV_CROSS} ${spirv} --msl --msl-version 20100 --output ${directory}/${name}.metal
+        DEPFILE ${spirv}.d
+        COMMENT "HLSL and MSL ${name}"
+        VERBATIM)
+    set_property(TARGET ${target} APPEND PROPERTY NACRE_TRANSLATIONS ${directory}/${name}.hlsl ${directory}/${name}.metal)
+endfunction()
+
+# nacre_shader(TARGET SOURCE [NAME name] [ENVIRONMENT vulkan1.2] [DEFINES A=1 ...] [TRANSLATED])
 # Compiles one GLSL file to SPIR-V, validates it, and makes it includable as "NAME.spv.h" (array `NAME_spv`).
+# Target property NACRE_SPIRV lists the .spv files. With TRANSLATED the file is translated, too (nacre_translate).
 # NAME defaults to the file name with dots as underscores: scatter_brute.comp -> scatter_brute_comp.
 function(nacre_shader target source)
-    cmake_parse_arguments(arg "" "NAME;ENVIRONMENT" "DEFINES;INCLUDES" ${ARGN})
+    cmake_parse_arguments(arg "TRANSLATED" "NAME;ENVIRONMENT" "DEFINES;INCLUDES" ${ARGN})
     if(NOT arg_ENVIRONMENT)
         set(arg_ENVIRONMENT vulkan1.2)
     endif()
@@ -38,5 +57,10 @@ function(nacre_shader target source)
         COMMENT "GLSL ${arg_NAME}"
         VERBATIM)
     target_sources(${target} PRIVATE ${header})
+    set_property(TARGET ${target} APPEND PROPERTY NACRE_SPIRV ${spirv})
     target_include_directories(${target} PRIVATE ${directory})
+    if(arg_TRANSLATED AND NACRE_SPIRV_CROSS)
+        nacre_translate(${target} ${arg_NAME} --target-env=${arg_ENVIRONMENT} ${includes} ${arg_DEFINES}
+                        ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    endif()
 endfunction()

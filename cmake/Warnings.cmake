@@ -1,7 +1,8 @@
-# nacre_warnings(TARGET): the project's own code is compiled with warnings as errors.
+# nacre_warnings(TARGET): the project's own code is compiled with warnings, which are errors unless another project includes it.
+option(NACRE_WARNINGS_AS_ERRORS "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 function(nacre_warnings target)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-        -Wno-missing-field-initializers -Werror)
+        -Wno-missing-field-initializers $<$<BOOL:${NACRE_WARNINGS_AS_ERRORS}>:-Werror>)
     if(NACRE_SANITIZE)
         target_compile_options(${target} PUBLIC -fsanitize=${NACRE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
         target_link_options(${target} PUBLIC -fsanitize=${NACRE_SANITIZE})

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# package.sh SOURCE COMPARE_PICTURES: everything a user of the library does, in a directory outside of the source tree and
+# with an empty environment: docs/integration.md from top to bottom, then programs that find the library by find_package,
+# add_subdirectory and pkg-config, static and shared. The library is compiled twice: for the document, optimised, and for
+# add_subdirectory, not optimised.
+set -euo pipefail
+source_directory=$(realpath "$1")
+compare_pictures=$(realpath "$2")
+consumer=$source_directory/tests/package/consumer
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+ln -s "$source_directory" nacre
+
+say() { printf '\n== %s ==\n' "$*"; }
+
+# Runs a command that knows of nothing but the system; compiler launchers (ccache) pass.
+clean() {
+    env -i PATH=/usr/local/bin:/usr/bin:/bin HOME="$work" CMAKE_GENERATOR=Ninja \
+        VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation \
+        VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT \
+        ${VK_DRIVER_FILES:+VK_DRIVER_FILES="$VK_DRIVER_FILES"} ${VK_ICD_FILENAMES:+VK_ICD_FILENAMES="$VK_ICD_FILENAMES"} \
+        ${CMAKE_CXX_COMPILER_LAUNCHER:+CMAKE_CXX_COMPILER_LAUNCHER="$CMAKE_CXX_COMPILER_LAUNCHER"} \
+        ${CCACHE_DIR:+CCACHE_DIR="$CCACHE_DIR"} ${CCACHE_NOHASHDIR:+CCACHE_NOHASHDIR="$CCACHE_NOHASHDIR"} "$@"
+}
+
+# Runs a program; whatever the validation layers say is a failure.
+run() {
+    clean "$@" > output.txt 2>&1 || { cat output.txt; exit 1; }
+    cat output.txt
+    if grep -E 'Validation (Error|Warning|Performance)|VUID-|SYNC-HAZARD' output.txt; then exit 1; fi
+}
+
+say "docs/integration.md"
+awk '/^```sh$/ { typing = 1; next } /^```$/ { typing = 0 } typing' nacre/docs/integration.md > commands.sh
+cat commands.sh
+run bash -euxo pipefail commands.sh
+"$compare_pictures" minimal.png nacre/docs/images/minimal.png
+
+say "the shared library"
+clean cmake -S nacre -B nacre-build -DBUILD_SHARED_LIBS=ON > log.txt
+clean cmake --build nacre-build > log.txt || { cat log.txt; exit 1; }
+clean cmake --install nacre-build --prefix "$work/shared" > log.txt
+nacre/tests/package/abi.sh nacre/include/nacre/nacre.h "$work/shared/lib/libnacre.so"
+mv nacre-install static # a prefix may be moved
+rm -r nacre-build
+
+for kind in static shared; do
+    say "find_package, $kind"
+    clean cmake -S "$consumer" -B "find-$kind" -DCMAKE_PREFIX_PATH="$work/$kind" > log.txt
+    clean cmake --build "find-$kind" > log.txt || { cat log.txt; exit 1; }
+    run "find-$kind/consumer"
+    run "find-$kind/core_consumer"
+
+    say "pkg-config, $kind"
+    flags=$(clean PKG_CONFIG_PATH="$work/$kind/lib/pkgconfig" pkg-config --cflags --libs nacre)
+    echo "$flags"
+    # shellcheck disable=SC2086
+    clean cc -std=c99 -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -Werror "$consumer/consumer.c" \
+        -o "pkg-config-$kind" $flags -lvulkan
+    run env LD_LIBRARY_PATH="$work/$kind/lib" "./pkg-config-$kind"
+done
+
+for kind in static shared; do
+    say "add_subdirectory, $kind"
+    shared=$([ $kind = shared ] && echo ON || echo OFF)
+    clean cmake -S "$consumer" -B subdirectory -DCMAKE_BUILD_TYPE=Debug -DNACRE_SOURCE="$work/nacre" \
+        -DBUILD_SHARED_LIBS="$shared" > log.txt
+    clean cmake --build subdirectory > log.txt || { cat log.txt; exit 1; }
+    run subdirectory/consumer
+    run subdirectory/core_consumer
+done
