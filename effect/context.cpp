@@ -82,13 +82,12 @@ std::array<bool, techniqueCount> enabledTechniques(std::uint32_t mask) {
     return enabled;
 }
 
-void create(NacreContext_T& context, const NacreContextInfo& info) {
+/// Makes everything that takes memory, and no memory yet.
+void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frames, std::uint32_t records) {
     checkGiven(info.instance, "NacreContextInfo::instance");
     checkGiven(info.physicalDevice, "NacreContextInfo::physicalDevice");
     checkGiven(info.device, "NacreContextInfo::device");
     checkGiven(info.getInstanceProcAddr, "NacreContextInfo::getInstanceProcAddr");
-    const std::uint32_t frames = countOr(info.framesInFlight, 2, maxFrames, "framesInFlight");
-    const std::uint32_t records = countOr(info.recordsPerFrame, 1, maxRecords, "recordsPerFrame");
     const std::uint32_t materials = countOr(info.maxMaterials, 64, NACRE_MAX_MATERIALS, "maxMaterials");
     context.maxLights = countOr(info.maxLights, 16, maxLightCount, "maxLights");
     context.messageCallback = info.messageCallback;
@@ -96,22 +95,69 @@ void create(NacreContext_T& context, const NacreContextInfo& info) {
     context.enabled = enabledTechniques(info.techniques);
     openDevice(context.device, info);
     checkExtent(context.device, info.maxExtent);
-    createPrograms(context, info.pipelineCache);
-    context.intermediates = createIntermediates(context, info.maxExtent);
+    for (std::size_t i = 0; i < techniqueCount; ++i) {
+        if (context.enabled[i]) {
+            (i == transmitIndex ? context.transmit : context.scatter).intermediates |= techniques[i]->uses();
+        }
+    }
     context.maxExtent = info.maxExtent;
+    context.intermediates = createIntermediates(context, info.maxExtent);
     context.materials.emplace(context.device, materials, frames, context.enabled);
-    createFrames(context, frames, records);
+    context.uniforms = createUniforms(context, frames, records);
+}
+
+void checkVersion(const NacreContextInfo& info) {
+    if (info.headerVersion != NACRE_HEADER_VERSION) {
+        fail(NACRE_ERROR_VERSION_MISMATCH, "NacreContextInfo::headerVersion is 0x", std::hex, info.headerVersion,
+             ", the library's is 0x", NACRE_HEADER_VERSION);
+    }
+}
+
+MemoryLayout layOutHostMemory(Context& context) {
+    MemoryLayout layout(context.device);
+    context.materials->addTo(layout);
+    layout.add(context.uniforms);
+    return layout;
+}
+
+std::uint32_t frameCount(const NacreContextInfo& info) {
+    return countOr(info.framesInFlight, 2, maxFrames, "framesInFlight");
+}
+
+std::uint32_t recordCount(const NacreContextInfo& info) {
+    return countOr(info.recordsPerFrame, 1, maxRecords, "recordsPerFrame");
+}
+
+void create(Context& context, const NacreContextInfo& info) {
+    prepare(context, info, frameCount(info), recordCount(info));
+    createPrograms(context, info.pipelineCache);
+    context.givenMemory = info.deviceMemory;
+    context.intermediateMemory = layOut(context, context.intermediates)
+                                     .place(MemoryUse::Device, info.deviceMemory, "NacreContextInfo::deviceMemory");
+    context.hostMemory =
+        layOutHostMemory(context).place(MemoryUse::Host, info.hostMemory, "NacreContextInfo::hostMemory");
+    context.materials->clear();
+    createFrames(context, frameCount(info), recordCount(info));
+}
+
+void resize(Context& context, VkExtent2D maxExtent) {
+    checkExtent(context.device, maxExtent);
+    Owned<VkDeviceMemory> memory; // freed after its resources are destroyed
+    IntermediateResources resources = createIntermediates(context, maxExtent);
+    memory = layOut(context, resources).place(MemoryUse::Device, context.givenMemory, "NacreContextInfo::deviceMemory");
+    std::swap(context.intermediates, resources);
+    std::swap(context.intermediateMemory, memory);
+    context.maxExtent = maxExtent;
 }
 
 void setMaterials(Context& context, std::uint32_t firstId, std::uint32_t count, const NacreMaterial* materials) {
-    const std::uint32_t most = context.materials->maxMaterial();
     if (firstId == 0) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "firstId is 0, which means no subsurface scattering; must be in [1, ", most,
-             "]");
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "firstId is 0, which means no subsurface scattering; must be in [1, ",
+             NACRE_MAX_MATERIALS, "]");
     }
-    if (std::uint64_t{firstId} + count > std::uint64_t{most} + 1) {
-        fail(NACRE_ERROR_LIMIT_EXCEEDED, "firstId is ", firstId, " and count ", count,
-             ", NacreContextInfo::maxMaterials is ", most);
+    if (std::uint64_t{firstId} + count > std::uint64_t{NACRE_MAX_MATERIALS} + 1) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, "firstId is ", firstId, " and count ", count, ", the last material id is ",
+             NACRE_MAX_MATERIALS);
     }
     if (count > 0) {
         checkGiven(materials, "materials");
@@ -170,16 +216,26 @@ NacreCost costOf(const Context& context, std::size_t technique) {
 
 using namespace nacre::effect;
 
+NacreResult nacreGetMemoryRequirements(const NacreContextInfo* info, NacreMemoryRequirements* requirements) {
+    if (!info || !requirements) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(info->messageCallback, info->userData, [&] {
+        checkVersion(*info);
+        Context context;
+        prepare(context, *info, frameCount(*info), recordCount(*info));
+        requirements->device = layOut(context, context.intermediates).requirements();
+        requirements->host = layOutHostMemory(context).requirements();
+    });
+}
+
 NacreResult nacreCreateContext(const NacreContextInfo* info, NacreContext* context) {
     if (!info || !context) {
         return NACRE_ERROR_INVALID_ARGUMENT;
     }
     *context = nullptr;
     return guard(info->messageCallback, info->userData, [&] {
-        if (info->headerVersion != NACRE_HEADER_VERSION) {
-            fail(NACRE_ERROR_VERSION_MISMATCH, "NacreContextInfo::headerVersion is 0x", std::hex, info->headerVersion,
-                 ", the library's is 0x", NACRE_HEADER_VERSION);
-        }
+        checkVersion(*info);
         auto created = std::make_unique<NacreContext_T>();
         create(*created, *info);
         *context = created.release();
@@ -194,11 +250,7 @@ NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent) {
     if (!context) {
         return NACRE_ERROR_INVALID_ARGUMENT;
     }
-    return guard(context->messageCallback, context->userData, [&] {
-        checkExtent(context->device, maxExtent);
-        context->intermediates = createIntermediates(*context, maxExtent);
-        context->maxExtent = maxExtent;
-    });
+    return guard(context->messageCallback, context->userData, [&] { resize(*context, maxExtent); });
 }
 
 NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count, const NacreMaterial* materials) {

@@ -4,6 +4,7 @@
 #include "device.hpp"
 #include "failure.hpp"
 #include "material_table.hpp"
+#include "memory.hpp"
 #include "pass_table.hpp"
 
 #include <new>
@@ -44,8 +45,11 @@ struct Programs {
 struct IntermediateResource {
     Image image;
     Buffer buffer;
-    VkDeviceSize bytes() const { return image.size + buffer.size; }
+    VkDeviceSize bytes() const { return image.requirements.size + buffer.requirements.size; }
 };
+
+/// One for every Intermediate.
+using IntermediateResources = std::array<IntermediateResource, intermediateCount>;
 
 struct Context {
     Device device;
@@ -60,7 +64,10 @@ struct Context {
     std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass, then materialPasses
     std::vector<Owned<VkPipeline>> bakedThesis; ///< the thesis's materialPasses; empty = not baked
     std::uint32_t bakedThesisRadius = 0;
-    std::array<IntermediateResource, intermediateCount> intermediates;
+    NacreMemory givenMemory{};                ///< the caller's, for the intermediates
+    Owned<VkDeviceMemory> intermediateMemory; ///< else this
+    IntermediateResources intermediates;
+    Owned<VkDeviceMemory> hostMemory;       ///< of materials and uniforms, unless the caller gave it
     std::optional<MaterialTable> materials; ///< made once the device is known
     Buffer uniforms;
     Owned<VkDescriptorPool> pool;
@@ -92,9 +99,15 @@ void createPrograms(Context& context, VkPipelineCache cache);
 /// Compiles a pass, with its specialization constants if it has any (programs.cpp).
 Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache,
                                  const VkSpecializationInfo* constants = nullptr);
-/// Allocates the intermediates for an extent (programs.cpp).
-std::array<IntermediateResource, intermediateCount> createIntermediates(const Context& context, VkExtent2D extent);
-/// Allocates descriptor sets and uniform memory of all frames (frames.cpp).
+/// The intermediates of the enabled techniques for an extent, without memory
+/// (programs.cpp).
+IntermediateResources createIntermediates(const Context& context, VkExtent2D extent);
+/// Where they shall lie; they have to stay where they are (programs.cpp).
+MemoryLayout layOut(const Context& context, IntermediateResources& resources);
+/// The uniform buffer of all frames, without memory (frames.cpp).
+Buffer createUniforms(const Context& context, std::uint32_t frames, std::uint32_t recordsPerFrame);
+/// Descriptor sets of all frames, and each one's part of the uniform buffer
+/// (frames.cpp).
 void createFrames(Context& context, std::uint32_t frames, std::uint32_t recordsPerFrame);
 /// The next unused record of a kind; throws when the frame was not begun or has none left.
 Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info);

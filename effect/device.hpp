@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dispatch_table.hpp"
+#include "nacre/nacre.h"
 
 #include <cstddef>
 #include <string>
@@ -45,28 +46,27 @@ private:
     Destroy destroy_ = nullptr;
 };
 
-/// A buffer with memory of its own; `mapped` is null when the host cannot see it.
+/// A buffer. MemoryLayout gives it memory and, when the host may see that, sets `mapped`.
 struct Buffer {
-    Owned<VkDeviceMemory> memory;
     Owned<VkBuffer> buffer;
-    VkDeviceSize size = 0;
+    VkMemoryRequirements requirements{};
     std::byte* mapped = nullptr;
 };
 
-/// A storage image with memory of its own.
+/// A storage image. MemoryLayout gives it memory and its view.
 struct Image {
-    Owned<VkDeviceMemory> memory;
     Owned<VkImage> image;
     Owned<VkImageView> view;
-    VkDeviceSize size = 0;
+    VkMemoryRequirements requirements{};
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    bool array = false; ///< whether the view is an array view
 };
 
-/// A buffer the host writes and the device reads, in device memory where the host can reach it.
-Buffer createHostBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const std::string& name);
-/// A storage buffer for the device alone, usable for indirect dispatches.
-Buffer createDeviceBuffer(const Device& device, VkDeviceSize size, const std::string& name);
-/// A 2D image for imageLoad, imageStore and texelFetch; its view is an array view when `array` is set.
+Buffer createBuffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, const std::string& name);
+/// A 2D image for imageLoad, imageStore and texelFetch.
 Image createImage(const Device& device, VkExtent2D extent, VkFormat format, bool array, const std::string& name);
+/// Binds memory to an image and makes its view.
+void bindImage(const Device& device, Image& image, VkDeviceMemory memory, VkDeviceSize offset);
 
 /// Names an object for debuggers where VK_EXT_debug_utils is enabled.
 void nameObject(const Device& device, VkObjectType type, std::uint64_t handle, const std::string& name);

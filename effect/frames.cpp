@@ -31,26 +31,38 @@ Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t recordCou
     return {device, pool, device.vk.DestroyDescriptorPool};
 }
 
+/// Bytes of the parts of a record.
+struct RecordBytes {
+    VkDeviceSize scatter, transmit, lights;
+};
+
+RecordBytes recordBytes(const Context& context) {
+    const VkPhysicalDeviceLimits& limits = context.device.limits;
+    const VkDeviceSize alignment =
+        std::max({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment, VkDeviceSize{16}});
+    return {alignUp(sizeof(ScatterParameters), alignment), alignUp(sizeof(TransmitParameters), alignment),
+            alignUp(sizeof(LightParameters) * context.maxLights, alignment)};
+}
+
 } // namespace
+
+Buffer createUniforms(const Context& context, std::uint32_t frameCount, std::uint32_t recordsPerFrame) {
+    const RecordBytes bytes = recordBytes(context);
+    return createBuffer(context.device,
+                        VkDeviceSize{frameCount} * recordsPerFrame * (bytes.scatter + bytes.transmit + bytes.lights),
+                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre parameters");
+}
 
 void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t recordsPerFrame) {
     const Device& device = context.device;
-    const VkDeviceSize alignment = std::max({device.limits.minUniformBufferOffsetAlignment,
-                                             device.limits.minStorageBufferOffsetAlignment, VkDeviceSize{16}});
-    const VkDeviceSize scatterBytes = alignUp(sizeof(ScatterParameters), alignment);
-    const VkDeviceSize transmitBytes = alignUp(sizeof(TransmitParameters), alignment);
-    const VkDeviceSize lightBytes = alignUp(sizeof(LightParameters) * context.maxLights, alignment);
-    const std::uint32_t recordCount = frameCount * recordsPerFrame;
-    context.uniforms =
-        createHostBuffer(device, recordCount * (scatterBytes + transmitBytes + lightBytes),
-                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre parameters");
-    context.pool = createPool(device, recordCount);
+    const RecordBytes bytes = recordBytes(context);
+    context.pool = createPool(device, frameCount * recordsPerFrame);
 
     VkDeviceSize offset = 0;
-    const auto place = [&](VkDescriptorBufferInfo& info, std::byte*& mapped, VkDeviceSize bytes) {
-        info = {context.uniforms.buffer.get(), offset, bytes};
+    const auto place = [&](VkDescriptorBufferInfo& info, std::byte*& mapped, VkDeviceSize size) {
+        info = {context.uniforms.buffer.get(), offset, size};
         mapped = context.uniforms.mapped + offset;
-        offset += bytes;
+        offset += size;
     };
     const auto allocateSet = [&](const Programs& programs) {
         VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
@@ -67,13 +79,13 @@ void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t reco
         frame.scatter.records.resize(recordsPerFrame);
         for (Record& record : frame.scatter.records) {
             record.set = allocateSet(context.scatter);
-            place(record.parameters, record.mappedParameters, scatterBytes);
+            place(record.parameters, record.mappedParameters, bytes.scatter);
         }
         frame.transmit.records.resize(recordsPerFrame);
         for (Record& record : frame.transmit.records) {
             record.set = allocateSet(context.transmit);
-            place(record.parameters, record.mappedParameters, transmitBytes);
-            place(record.lights, record.mappedLights, lightBytes);
+            place(record.parameters, record.mappedParameters, bytes.transmit);
+            place(record.lights, record.mappedLights, bytes.lights);
         }
     }
 }

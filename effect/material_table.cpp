@@ -51,7 +51,6 @@ MaterialParameters parametersOf(const NacreMaterial& from, const Profile& profil
     parameters.strength = from.strength;
     parameters.translucency = from.translucency;
     parameters.thickness = from.thickness;
-    parameters.set = 1;
     parameters.exchangeGroups = from.exchangeGroups;
     parameters.preAndPost = from.albedoUse == NACRE_ALBEDO_PRE_AND_POST;
     return parameters;
@@ -59,40 +58,56 @@ MaterialParameters parametersOf(const NacreMaterial& from, const Profile& profil
 
 } // namespace
 
-MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterial, std::uint32_t frames,
+MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
                              const std::array<bool, techniqueCount>& enabled)
-    : maxMaterial_(maxMaterial) {
+    : maxMaterials_(maxMaterials) {
     const VkDeviceSize alignment = std::max<VkDeviceSize>(device.limits.minStorageBufferOffsetAlignment, 16);
-    VkDeviceSize size = 0;
     for (std::size_t i = 0; i < sections_.size(); ++i) {
         const bool isParameters = i == techniqueCount;
-        const VkDeviceSize stride = isParameters ? sizeof(MaterialParameters)
-                                    : enabled[i] ? VkDeviceSize{techniques[i]->tableBytes}
-                                                 : 0;
-        const VkDeviceSize bytes = stride * (maxMaterial + 1);
+        Section& section = sections_[i];
+        section.stride = isParameters ? sizeof(MaterialParameters) : enabled[i] ? techniques[i]->tableBytes : 0;
+        section.head = isParameters ? materialIdCount * sizeof(std::uint32_t) : 0;
+        section.offset = size_ + section.head;
+        const VkDeviceSize bytes = section.head + section.stride * (maxMaterials + 1);
         if (bytes > device.limits.maxStorageBufferRange) {
-            fail(NACRE_ERROR_LIMIT_EXCEEDED, "NacreContextInfo::maxMaterials is ", maxMaterial, ": the table of ",
+            fail(NACRE_ERROR_LIMIT_EXCEEDED, "NacreContextInfo::maxMaterials is ", maxMaterials, ": the table of ",
                  isParameters ? "materials" : techniques[i]->name, " would take ", bytes,
                  " bytes, the device's maxStorageBufferRange is ", device.limits.maxStorageBufferRange,
                  "; leave techniques out in NacreContextInfo::techniques or lower it");
         }
-        sections_[i] = {size, stride};
-        size += (bytes + alignment - 1) / alignment * alignment;
+        size_ += (bytes + alignment - 1) / alignment * alignment;
     }
-    current_.resize(size);
-    isSet_.resize(maxMaterial + 1);
     frames_.resize(frames);
     for (Frame& frame : frames_) {
-        frame.buffer = createHostBuffer(device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre materials");
-        std::memset(frame.buffer.mapped, 0, size);
-        frame.changed.reserve(maxMaterial + 1);
-        frame.isChanged.resize(maxMaterial + 1);
-        frame.ids.reserve(maxMaterial + 1);
-        frame.isSet.resize(maxMaterial + 1);
+        frame.buffer = createBuffer(device, size_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre materials");
+    }
+}
+
+void MaterialTable::addTo(MemoryLayout& layout) {
+    for (Frame& frame : frames_) {
+        layout.add(frame.buffer);
+    }
+}
+
+void MaterialTable::clear() {
+    current_.resize(size_);
+    slots_.resize(materialIdCount);
+    for (Frame& frame : frames_) {
+        std::memset(frame.buffer.mapped, 0, size_);
+        frame.changed.reserve(maxMaterials_);
+        frame.isChanged.resize(maxMaterials_ + 1);
     }
 }
 
 void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> materials) {
+    const auto isNew = [](std::uint32_t slot) { return slot == 0; };
+    const std::span<const std::uint32_t> slots = std::span(slots_).subspan(firstId, materials.size());
+    const auto added = static_cast<std::uint32_t>(std::count_if(slots.begin(), slots.end(), isNew));
+    if (added > maxMaterials_ - setCount_) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, "firstId is ", firstId, " and count ", materials.size(), ": ",
+             std::uint64_t{setCount_} + added, " materials would be set, NacreContextInfo::maxMaterials is ",
+             maxMaterials_);
+    }
     std::size_t blockBytes = 0;
     for (const Section& section : sections_) {
         blockBytes += section.stride;
@@ -118,15 +133,17 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
     }
     const std::byte* block = blocks.data();
     for (std::uint32_t id = firstId; id < firstId + materials.size(); ++id) {
+        if (slots_[id] == 0) {
+            slots_[id] = ++setCount_;
+        }
+        const std::uint32_t slot = slots_[id];
         for (const Section& section : sections_) {
-            std::memcpy(current_.data() + section.offset + section.stride * id, block, section.stride);
+            std::memcpy(current_.data() + section.offset + section.stride * slot, block, section.stride);
             block += section.stride;
         }
-        setCount_ += isSet_[id] ? 0 : 1;
-        isSet_[id] = true;
         for (Frame& frame : frames_) {
-            if (!frame.isChanged[id]) {
-                frame.isChanged[id] = true;
+            if (!frame.isChanged[slot]) {
+                frame.isChanged[slot] = true;
                 frame.changed.push_back(id);
             }
         }
@@ -135,12 +152,12 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
 }
 
 void MaterialTable::findSeparate() {
+    const Section& section = sections_.back();
     std::uint32_t common = 0xffffffffu;
-    for (std::uint32_t id = 1; id <= maxMaterial_; ++id) {
+    for (std::uint32_t slot = 1; slot <= setCount_; ++slot) {
         MaterialParameters parameters;
-        std::memcpy(&parameters, current_.data() + sections_.back().offset + sections_.back().stride * id,
-                    sizeof(parameters));
-        common &= parameters.set != 0 ? parameters.exchangeGroups : 0xffffffffu;
+        std::memcpy(&parameters, current_.data() + section.offset + section.stride * slot, sizeof(parameters));
+        common &= parameters.exchangeGroups;
     }
     haveSeparate_ = common == 0;
 }
@@ -148,22 +165,23 @@ void MaterialTable::findSeparate() {
 void MaterialTable::update(std::uint32_t index) {
     Frame& frame = frames_[index];
     for (const std::uint32_t id : frame.changed) {
+        const std::uint32_t slot = slots_[id];
         for (const Section& section : sections_) {
-            const VkDeviceSize at = section.offset + section.stride * id;
+            const VkDeviceSize at = section.offset + section.stride * slot;
             std::memcpy(frame.buffer.mapped + at, current_.data() + at, section.stride);
         }
-        frame.isChanged[id] = false;
-        if (!frame.isSet[id]) {
-            frame.isSet[id] = true;
-            frame.ids.push_back(id);
-        }
+        const Section& parameters = sections_.back();
+        std::memcpy(frame.buffer.mapped + parameters.offset - parameters.head + id * sizeof(slot), &slot, sizeof(slot));
+        frame.isChanged[slot] = false;
     }
     frame.changed.clear();
+    frame.slotCount = setCount_;
     frame.haveSeparate = haveSeparate_;
 }
 
 VkDescriptorBufferInfo MaterialTable::range(std::uint32_t frame, const Section& section) const {
-    return {frames_[frame].buffer.buffer.get(), section.offset, section.stride * (maxMaterial_ + 1)};
+    return {frames_[frame].buffer.buffer.get(), section.offset - section.head,
+            section.head + section.stride * (maxMaterials_ + 1)};
 }
 
 } // namespace nacre::effect

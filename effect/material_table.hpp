@@ -1,8 +1,11 @@
-// The materials, as the shaders read them. Every frame in flight has a copy of its own, brought up to date when the
-// frame begins, so that no frame sees half of a change.
+// The materials, as the shaders read them. A material that is set takes the
+// next slot, and the shaders find its slot by its id: ids may lie anywhere, and
+// tables are as long as the materials are many. Every frame in flight has a
+// copy of its own, brought up to date when the frame begins, so that no frame
+// sees half of a change.
 #pragma once
 
-#include "device.hpp"
+#include "memory.hpp"
 #include "pass_table.hpp"
 
 #include <span>
@@ -12,9 +15,13 @@ namespace nacre::effect {
 
 class MaterialTable {
 public:
-    /// enabled[i]: whether techniques[i] needs its table.
-    MaterialTable(const Device& device, std::uint32_t maxMaterial, std::uint32_t frames,
+    /// maxMaterials: how many may be set. enabled[i]: whether techniques[i] needs
+    /// its table.
+    MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
                   const std::array<bool, techniqueCount>& enabled);
+    void addTo(MemoryLayout& layout);
+    /// No material is set. Call once, when the buffers have memory.
+    void clear();
 
     /// Sets materials firstId … . Throws Failure naming the material and field; nothing has changed then.
     void set(std::uint32_t firstId, std::span<const NacreMaterial> materials);
@@ -28,38 +35,42 @@ public:
     /// One material's table, as set last.
     std::span<const std::byte> currentTable(std::uint32_t id, std::size_t technique) const {
         const Section& section = sections_[technique];
-        return std::span(current_).subspan(section.offset + section.stride * id, section.stride);
+        return std::span(current_).subspan(section.offset + section.stride * slots_[id], section.stride);
     }
-    std::uint32_t maxMaterial() const { return maxMaterial_; }
-    bool isSet(std::uint32_t id) const { return isSet_[id]; }
+    bool isSet(std::uint32_t id) const { return id < slots_.size() && slots_[id] != 0; }
     std::uint32_t setCount() const { return setCount_; }
-    /// The materials set in this frame.
-    std::span<const std::uint32_t> ids(std::uint32_t frame) const { return frames_[frame].ids; }
-    /// Whether, in this frame, some materials may not exchange light: no exchange group holds them all.
+    /// How many materials are set in this frame: theirs are the slots 1 …
+    /// slotCount.
+    std::uint32_t slotCount(std::uint32_t frame) const { return frames_[frame].slotCount; }
+    /// Whether, in this frame, some materials may not exchange light: no exchange
+    /// group holds them all.
     bool haveSeparate(std::uint32_t frame) const { return frames_[frame].haveSeparate; }
 
 private:
-    /// One array in the buffer: `stride` bytes a material.
+    /// One array in the buffer: `head` bytes, then `stride` bytes a slot; slot 0
+    /// is no material's.
     struct Section {
-        VkDeviceSize offset = 0;
+        VkDeviceSize offset = 0; ///< of slot 0
         VkDeviceSize stride = 0;
+        VkDeviceSize head = 0; ///< before the offset
     };
     struct Frame {
         Buffer buffer;
         std::vector<std::uint32_t> changed; ///< ids, capacity for all
-        std::vector<bool> isChanged;
-        std::vector<std::uint32_t> ids; ///< of the materials in the buffer, capacity for all
-        std::vector<bool> isSet;
+        std::vector<bool> isChanged;        ///< by slot
+        std::uint32_t slotCount = 0;
         bool haveSeparate = false;
     };
     VkDescriptorBufferInfo range(std::uint32_t frame, const Section& section) const;
     void findSeparate();
 
-    std::uint32_t maxMaterial_;
-    std::array<Section, techniqueCount + 1> sections_; ///< one a technique, then MaterialParameters
+    std::uint32_t maxMaterials_;
+    std::array<Section, techniqueCount + 1> sections_; ///< one a technique, then slots by id and MaterialParameters
+    VkDeviceSize size_ = 0;                            ///< of all sections
     bool haveSeparate_ = false;                        ///< as Frame::haveSeparate, for the next frame
-    std::vector<std::byte> current_;                   ///< laid out as the frames' buffers
-    std::vector<bool> isSet_;                          ///< by id, in current_
+    std::vector<std::byte> current_;                   ///< laid out as the frames' buffers; the
+                                                       ///< slots by id are not used
+    std::vector<std::uint32_t> slots_;                 ///< by id, in current_; 0 = not set
     std::uint32_t setCount_ = 0;
     std::vector<Frame> frames_;
 };

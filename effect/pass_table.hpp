@@ -80,7 +80,8 @@ struct Technique {
     std::size_t tableBytes; ///< per material, a multiple of 16
     /// Fills one material's table (tableBytes, zeroed).
     void (*buildTable)(const Material& material, const Profile& profile, std::span<std::byte> table);
-    /// After `passes`, for one material after another; its id is pushed. Timed as one, under materialPassesName.
+    /// After `passes`, for one material after another; its slot is pushed. Timed
+    /// as one, under materialPassesName.
     std::span<const Pass> materialPasses = {};
     const char* materialPassesName = nullptr;
 

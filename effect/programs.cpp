@@ -92,11 +92,6 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
 }
 
 void createPrograms(Context& context, VkPipelineCache cache) {
-    for (std::size_t i = 0; i < techniqueCount; ++i) {
-        if (context.enabled[i]) {
-            (i == transmitIndex ? context.transmit : context.scatter).intermediates |= techniques[i]->uses();
-        }
-    }
     createLayout(context, context.scatter, scatterBindings);
     createLayout(context, context.transmit, transmitBindings);
     for (std::size_t i = 0; i < techniqueCount; ++i) {
@@ -112,8 +107,8 @@ void createPrograms(Context& context, VkPipelineCache cache) {
     }
 }
 
-std::array<IntermediateResource, intermediateCount> createIntermediates(const Context& context, VkExtent2D extent) {
-    std::array<IntermediateResource, intermediateCount> resources;
+IntermediateResources createIntermediates(const Context& context, VkExtent2D extent) {
+    IntermediateResources resources;
     const IntermediateSet used = context.scatter.intermediates | context.transmit.intermediates;
     for (std::size_t i = 0; i < intermediateCount; ++i) {
         const IntermediateInfo& info = intermediates[i];
@@ -132,9 +127,22 @@ std::array<IntermediateResource, intermediateCount> createIntermediates(const Co
                  "; leave its technique out of "
                  "NacreContextInfo::techniques or lower maxExtent");
         }
-        resources[i].buffer = createDeviceBuffer(context.device, bytes, info.name);
+        resources[i].buffer = createBuffer(
+            context.device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, info.name);
     }
     return resources;
+}
+
+MemoryLayout layOut(const Context& context, IntermediateResources& resources) {
+    MemoryLayout layout(context.device);
+    for (IntermediateResource& resource : resources) {
+        if (resource.image.image.get() != VK_NULL_HANDLE) {
+            layout.add(resource.image);
+        } else if (resource.buffer.buffer.get() != VK_NULL_HANDLE) {
+            layout.add(resource.buffer);
+        }
+    }
+    return layout;
 }
 
 } // namespace nacre::effect

@@ -180,9 +180,9 @@ void recordPasses(const PassRecording& recording) {
     if (!technique.materialPasses.empty()) {
         const std::span materialPipelines =
             recording.baked ? std::span(recording.context.bakedThesis) : pipelines.subspan(passCount);
-        for (const std::uint32_t id : recording.materials) {
+        for (std::uint32_t slot = 1; slot <= recording.materialCount; ++slot) {
             vk.CmdPushConstants(recording.commandBuffer, recording.programs.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT,
-                                0, sizeof(id), &id);
+                                0, sizeof(slot), &slot);
             for (std::size_t i = 0; i < technique.materialPasses.size(); ++i) {
                 record(technique.materialPasses[i], materialPipelines[i]);
             }

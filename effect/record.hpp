@@ -43,8 +43,8 @@ struct PassRecording {
     VkDescriptorSet set;
     VkExtent2D area;
     NacreTimestamps timestamps;
-    std::span<const std::uint32_t> materials = {}; ///< ids the technique's materialPasses run for
-    bool baked = false;                            ///< those with the kernel of nacreBakeThesisKernel
+    std::uint32_t materialCount = 0; ///< the technique's materialPasses run for the slots 1 … materialCount
+    bool baked = false;              ///< those with the kernel of nacreBakeThesisKernel
 };
 
 /// Records the technique's passes with what lies between them: barriers, labels, timestamps.

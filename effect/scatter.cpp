@@ -80,7 +80,6 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     setView(view, info.view, area, hasNormal, name);
     view.normalScale = info.normalScale == 0 ? 1.0f : info.normalScale;
     view.normalBias = info.normalBias;
-    view.maxMaterial = context.materials->maxMaterial();
     view.flags |= context.materials->haveSeparate(info.frame) ? flagSeparateMaterials : 0u;
     parameters.pixelWidth = pixelWidth(view);
     setTechnique(parameters, context, info);
@@ -103,7 +102,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
-                  context.materials->ids(info.frame), info.thesisBakedKernel != VK_FALSE});
+                  context.materials->slotCount(info.frame), info.thesisBakedKernel != VK_FALSE});
 }
 
 } // namespace

@@ -75,7 +75,7 @@ Owned<VkPipeline> bakePass(const Context& context, const Pass& pass, std::span<c
 
 void bake(Context& context, std::uint32_t materialId, std::uint32_t radius) {
     const std::size_t technique = scatterTechniqueIndex(context, NACRE_TECHNIQUE_THESIS, "technique");
-    if (materialId == 0 || materialId > context.materials->maxMaterial() || !context.materials->isSet(materialId)) {
+    if (!context.materials->isSet(materialId)) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "materialId is ", materialId, ", which nacreSetMaterials has not set");
     }
     KernelConstants constants{};

@@ -123,7 +123,7 @@ void checkLights(const Context& context, const NacreTransmitInfo& info) {
 }
 
 /// Checks the images and fills everything of the parameters but the lights.
-TransmitParameters checkedParameters(const Context& context, const NacreTransmitInfo& info, const VkRect2D& area) {
+TransmitParameters checkedParameters(const NacreTransmitInfo& info, const VkRect2D& area) {
     checkImage(info.depth, NACRE_IMAGE_DEPTH, area, "NacreTransmitInfo::depth");
     checkImage(info.materialId, NACRE_IMAGE_MATERIAL_ID, area, "NacreTransmitInfo::materialId");
     if (!checkImage(info.normal, NACRE_IMAGE_NORMAL, area, "NacreTransmitInfo::normal")) {
@@ -149,7 +149,6 @@ TransmitParameters checkedParameters(const Context& context, const NacreTransmit
     view.normalScale = info.normalScale == 0 ? 1.0f : info.normalScale;
     view.normalBias = info.normalBias;
     view.lightCount = info.lightCount;
-    view.maxMaterial = context.materials->maxMaterial();
     parameters.normalOffset = info.normalOffset == 0 ? 1.5f : info.normalOffset;
     parameters.filterRadius = info.filterRadius == 0 ? 2.0f : info.filterRadius;
     return parameters;
@@ -157,7 +156,7 @@ TransmitParameters checkedParameters(const Context& context, const NacreTransmit
 
 void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransmitInfo& info) {
     const VkRect2D area = renderArea(info.view, info.depth.extent, context.maxExtent, "NacreTransmitInfo");
-    const TransmitParameters parameters = checkedParameters(context, info, area);
+    const TransmitParameters parameters = checkedParameters(info, area);
     checkLights(context, info);
     Record& record = nextRecord(context, info.frame, &Frame::transmit, "NacreTransmitInfo");
 

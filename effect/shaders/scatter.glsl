@@ -7,6 +7,7 @@ layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
     ScatterParameters parameters;
 };
 layout(set = 0, binding = bindingMaterials, std430) readonly buffer Materials {
+    uint slots[materialIdCount];
     MaterialParameters materials[];
 };
 layout(set = 0, binding = bindingDepth) uniform texture2D depthImage;
@@ -20,12 +21,10 @@ layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredI
 #define view parameters.view
 #include "view.glsl"
 
-// The pixel's material, 0 where there is no subsurface scattering.
+// The slot of the pixel's material, 0 where there is no subsurface scattering.
 uint materialAt(ivec2 pixel) {
     uint id = texelFetch(materialIdImage, pixel, 0).r;
-    uint known = min(id, view.maxMaterial);
-    uint set = materials[known].set;
-    return id == known && set != 0u ? id : 0u;
+    return slots[id & (materialIdCount - 1u)];
 }
 
 // Whether light that enters material `from` may leave material `to`: one material, or a common exchange group.

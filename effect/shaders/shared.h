@@ -34,7 +34,7 @@ struct mat4 {
 
 // Bindings of set 0. Scatter and transmit have one layout each; a number means the same in both.
 NACRE_CONSTANT bindingParameters = 0;  // uniform: ScatterParameters or TransmitParameters
-NACRE_CONSTANT bindingMaterials = 1;   // storage: MaterialParameters[id]
+NACRE_CONSTANT bindingMaterials = 1;   // storage: uint slots[materialIdCount], MaterialParameters[slot]
 NACRE_CONSTANT bindingTables = 2;      // storage: the technique's table, one block a material
 NACRE_CONSTANT bindingDepth = 3;
 NACRE_CONSTANT bindingMaterialId = 4;
@@ -87,7 +87,7 @@ struct ViewParameters {
     float normalBias;
     uint flags;
     uint lightCount;
-    uint maxMaterial; // largest id in the tables
+    uint unused0;
 };
 
 struct ScatterParameters {
@@ -107,15 +107,16 @@ struct TransmitParameters {
     float unused0, unused1;
 };
 
+// A material that is set has a slot, from 1 on; `material` in the shaders is one. slots[id] is 0 where none is set.
+NACRE_CONSTANT materialIdCount = 65536; // NACRE_MAX_MATERIALS + 1
 struct MaterialParameters {
     float radius; // mm, 99.9 % of the light leaves within it; 0 = light leaves where it enters
     float strength;
     float translucency;
     float thickness; // mm, 0 = not authored
-    uint set;        // 0 = this id was never set
     uint exchangeGroups;
     uint preAndPost;
-    uint unused0;
+    uint unused0, unused1;
 };
 
 // Line-spread table of `separable`: entry i is the light between 0 and x = radius·(i / (entries - 1))², so the last
@@ -196,7 +197,7 @@ static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParamete
               sizeof(ViewParameters) == 240);
 static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && sizeof(ScatterParameters) == 272);
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
-static_assert(offsetof(MaterialParameters, set) == 16 && sizeof(MaterialParameters) == 32);
+static_assert(offsetof(MaterialParameters, exchangeGroups) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
 static_assert(sizeof(BrutePixel) == 32);
 static_assert(sizeof(BankDispatch) == 16);

@@ -10,6 +10,7 @@ layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
     TransmitParameters parameters;
 };
 layout(set = 0, binding = bindingMaterials, std430) readonly buffer Materials {
+    uint slots[materialIdCount];
     MaterialParameters materials[];
 };
 layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
@@ -244,18 +245,18 @@ void main() {
         return;
     }
     ivec2 pixel = local + view.areaOffset;
-    uint id = texelFetch(materialIdImage, pixel, 0).r;
+    uint slot = slots[texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u)];
     float z = viewZ(pixel);
     vec3 normal = viewNormal(texelFetch(normalImage, pixel, 0).xyz) * mat3(view.viewFromWorld);
-    if (id > view.maxMaterial || materials[id].set == 0u || !isValidZ(z) || !isFinite(normal)) {
+    if (slot == 0u || !isValidZ(z) || !isFinite(normal)) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;
     }
-    MaterialParameters material = materials[id];
+    MaterialParameters material = materials[slot];
     Receiver receiver;
     receiver.position = (view.worldFromView * vec4(viewPosition(pixel, z), 1.0)).xyz;
     receiver.normal = normal;
-    receiver.material = id;
+    receiver.material = slot;
     receiver.authored = material.thickness;
     if (hasFlag(flagThickness)) {
         float authored = texelFetch(thicknessImage, pixel, 0).r;

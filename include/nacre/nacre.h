@@ -64,7 +64,7 @@ extern "C" {
 
 /** Most layers a material may have. */
 #define NACRE_MAX_LAYERS 32u
-/** Largest material id, and the default and upper limit of NacreContextInfo::maxMaterials. */
+/** Largest material id, and upper limit of NacreContextInfo::maxMaterials. */
 #define NACRE_MAX_MATERIALS 65535u
 /** NacreLight::shadowMap of a light without a shadow map. */
 #define NACRE_NO_SHADOW_MAP 0xffffffffu
@@ -163,6 +163,20 @@ typedef struct NacreImageRequirements {
     VkBool32 optional;       /**< may be left out (null view) */
 } NacreImageRequirements;
 
+/** A piece of the caller's device memory. It belongs to the context alone until that is destroyed. */
+typedef struct NacreMemory {
+    VkDeviceMemory memory; /**< VK_NULL_HANDLE = not given */
+    VkDeviceSize offset;   /**< a multiple of the alignment required */
+    VkDeviceSize size;     /**< what may be used from offset on; at least the size required */
+    void* mapped;          /**< where the host sees `offset`; needed for NacreContextInfo::hostMemory alone */
+} NacreMemory;
+
+/** What NacreContextInfo::deviceMemory and hostMemory need: size, alignment, and the memory types to choose from. */
+typedef struct NacreMemoryRequirements {
+    VkMemoryRequirements device; /**< intermediates, at maxExtent; device-local memory is fastest */
+    VkMemoryRequirements host;   /**< materials and parameters; host-visible and host-coherent memory */
+} NacreMemoryRequirements;
+
 typedef struct NacreContextInfo {
     uint32_t headerVersion; /**< NACRE_HEADER_VERSION */
     VkInstance instance;
@@ -176,10 +190,14 @@ typedef struct NacreContextInfo {
                                     take less memory per pixel and per material (see nacreGetScatterCost) */
     uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
     uint32_t recordsPerFrame;  /**< [1 … 64] scatter calls, and transmit calls, per frame (views); 0 = 1 */
-    uint32_t maxMaterials;     /**< [1 … 65535] largest material id; 0 = 64 */
+    uint32_t maxMaterials;     /**< [1 … 65535] most materials that are set, whatever their ids; 0 = 64. Each takes
+                                    NacreCost::materialBytes of every technique, in buffers no larger than the device's
+                                    maxStorageBufferRange: where that is 128 MiB, 65535 of separable, 24671 of bank */
     uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
     NacreMessageCallback messageCallback; /**< null = silent */
     void* userData;            /**< handed to messageCallback */
+    NacreMemory deviceMemory;  /**< for the intermediates; null = the library allocates. nacreResize has to do with it, too */
+    NacreMemory hostMemory;    /**< for materials and parameters; null = the library allocates */
 } NacreContextInfo;
 
 /** One layer of a material: adds weight · exp(-r² / 2 variance) / (2 pi variance). */
@@ -327,13 +345,16 @@ NACRE_API NacreResult nacreGetRequirements(NacreRequirements* requirements);
 /** What an image in this slot must bring. */
 NACRE_API NacreResult nacreGetImageRequirements(NacreImageSlot slot, NacreImageRequirements* requirements);
 
+/** What a context made with this info needs in memory; its members deviceMemory and hostMemory are not looked at. */
+NACRE_API NacreResult nacreGetMemoryRequirements(const NacreContextInfo* info, NacreMemoryRequirements* requirements);
 /** Allocates everything recording needs and compiles the pipelines. */
 NACRE_API NacreResult nacreCreateContext(const NacreContextInfo* info, NacreContext* context);
 /** The device must have finished with the context's work. Null is allowed. */
 NACRE_API void nacreDestroyContext(NacreContext context);
-/** Changes maxExtent. The device must have finished with the context's work. On failure the old extent stays. */
+/** Changes maxExtent. The device must have finished with the context's work. On failure the old extent stays; one reason
+ *  is that NacreContextInfo::deviceMemory is too small. */
 NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent);
-/** Sets materials firstId … firstId + count - 1 (firstId >= 1). May be called while frames are in flight: a frame sees
+/** Sets materials firstId … firstId + count - 1, ids in [1, NACRE_MAX_MATERIALS]. May be called while frames are in flight: a frame sees
  *  the materials set before its nacreBeginFrame, whole. On error nothing changes. */
 NACRE_API NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count,
                                         const NacreMaterial* materials);

@@ -1,4 +1,5 @@
-// The effect for C++20: nacre.h with an owner for the context. Header only; errors stay result codes.
+// The effect for C++20: nacre.h with an owner for the context. Header only;
+// errors stay result codes.
 #pragma once
 
 #include "nacre/nacre.h"
@@ -9,7 +10,8 @@
 
 namespace nacre {
 
-/// Owns a NacreContext. Move-only; the device must have finished with the context's work when it is destroyed.
+/// Owns a NacreContext. Move-only; the device must have finished with the
+/// context's work when it is destroyed.
 class Context {
 public:
     Context() = default;
@@ -20,7 +22,8 @@ public:
     }
     ~Context() { nacreDestroyContext(context_); }
 
-    /// nacreCreateContext. What `context` held before is destroyed on success and kept on failure.
+    /// nacreCreateContext. What `context` held before is destroyed on success and
+    /// kept on failure.
     [[nodiscard]] static NacreResult create(const NacreContextInfo& info, Context& context) {
         Context created;
         const NacreResult result = nacreCreateContext(&info, &created.context_);
@@ -28,6 +31,12 @@ public:
             context = std::move(created);
         }
         return result;
+    }
+
+    /// nacreGetMemoryRequirements.
+    [[nodiscard]] static NacreResult memoryRequirements(const NacreContextInfo& info,
+                                                        NacreMemoryRequirements& requirements) {
+        return nacreGetMemoryRequirements(&info, &requirements);
     }
 
     [[nodiscard]] NacreResult resize(VkExtent2D maxExtent) { return nacreResize(context_, maxExtent); }

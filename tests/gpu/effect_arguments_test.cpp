@@ -228,7 +228,7 @@ TEST_F(ArgumentsTest, Materials) {
         };
     };
     expectRefusal(effect, NACRE_ERROR_INVALID_ARGUMENT, "firstId is 0", set(0, 1));
-    expectRefusal(effect, NACRE_ERROR_LIMIT_EXCEEDED, "firstId is 65", set(65, 1));
+    expectRefusal(effect, NACRE_ERROR_LIMIT_EXCEEDED, "firstId is 65535 and count 2", set(65535, 2));
     expectRefusal(effect, NACRE_ERROR_LIMIT_EXCEEDED, "count 4294967295", set(1, 0xffffffffu));
     expectRefusal(effect, NACRE_ERROR_LIMIT_EXCEEDED, "frame is 2",
                   [&](VkCommandBuffer) { return nacreBeginFrame(effect.context, 2); });
