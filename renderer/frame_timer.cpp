@@ -22,14 +22,15 @@ void FrameTimer::begin(const vk::raii::CommandBuffer& commandBuffer) {
 }
 
 void FrameTimer::endPass(const vk::raii::CommandBuffer& commandBuffer, const std::string& name) {
-    passes_.push_back({name, queryCount_ - 1});
+    passes_.push_back({name, queryCount_ - 1, queryCount_});
     writeTimestamp(commandBuffer);
 }
 
 std::uint32_t FrameTimer::reserve(std::span<const char* const> passNames, const std::string& prefix) {
     const std::uint32_t first = queryCount_;
     for (const char* name : passNames) {
-        passes_.push_back({prefix + name, queryCount_++});
+        const std::uint32_t begin = queryCount_ == first ? first - 1 : queryCount_;
+        passes_.push_back({prefix + name, begin, ++queryCount_});
     }
     ++queryCount_;
     if (queryCount_ > maxQueries) {
@@ -56,7 +57,7 @@ void FrameTimer::read(FrameReport& report) const {
         return static_cast<double>((values[to] - values[from]) & validBits_) * microsecondsPerTick_;
     };
     for (const Pass& pass : passes_) {
-        report.passes.push_back({pass.name, time(pass.firstQuery, pass.firstQuery + 1)});
+        report.passes.push_back({pass.name, time(pass.firstQuery, pass.lastQuery)});
     }
     report.totalMicroseconds = time(0, queryCount_ - 1);
 }

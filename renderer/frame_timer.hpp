@@ -17,7 +17,9 @@ public:
     /// Ends the pass that began at the last timestamp.
     void endPass(const vk::raii::CommandBuffer& commandBuffer, const std::string& name);
     vk::QueryPool pool() const { return *pool_; }
-    /// Sets queries aside for passes that somebody else times: one before the first and one after each.
+    /// Sets queries aside for passes that somebody else times: one before the first and one after each. The first pass
+    /// counts from the timestamp before all of them, so that barriers belong to it; besides, Mesa's software device
+    /// writes a timestamp late that a dispatch follows without a barrier.
     std::uint32_t reserve(std::span<const char* const> passNames, const std::string& prefix);
     /// Fills the report's passes and total.
     void read(FrameReport& report) const;
@@ -26,6 +28,7 @@ private:
     struct Pass {
         std::string name;
         std::uint32_t firstQuery;
+        std::uint32_t lastQuery;
     };
 
     void writeTimestamp(const vk::raii::CommandBuffer& commandBuffer);
