@@ -3,6 +3,7 @@
 
 #include "app/bench/conclusion.hpp"
 #include "app/bench/diff.hpp"
+#include "app/bench/markdown.hpp"
 #include "app/bench/report.hpp"
 #include "app/bench/results.hpp"
 #include "app/bench/run.hpp"
@@ -65,7 +66,7 @@ void runSuite(const Suite& suite, const SuiteOptions& options) {
 void addSuite(CLI::App& bench, const Suite& suite) {
     CLI::App* command = bench.add_subcommand(suite.name, suite.help);
     const auto options = std::make_shared<SuiteOptions>();
-    options->folder = std::string("nacre-bench-") + suite.name;
+    options->folder = std::string("nacre-bench-") += suite.name;
     command->add_flag("--quick", options->suite.quick, "Smaller pictures and fewer frames: minutes without a GPU");
     command->add_option("--scene", options->suite.scene, "A model or scene file in place of the gallery")
         ->type_name("FILE");
@@ -107,6 +108,13 @@ void addReport(CLI::App& bench) {
     });
 }
 
+void addMarkdown(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand("markdown", "A results.json as Markdown on standard output");
+    const auto file = std::make_shared<Path>();
+    command->add_option("RESULTS", *file, "results.json")->required();
+    command->callback([file] { std::cout << bench::formatMarkdown(bench::loadResults(*file)); });
+}
+
 } // namespace
 
 void addBench(CLI::App& app) {
@@ -117,6 +125,7 @@ void addBench(CLI::App& app) {
     }
     addDiff(*command);
     addReport(*command);
+    addMarkdown(*command);
 }
 
 } // namespace nacre::app

@@ -12,7 +12,7 @@ namespace nacre::bench {
 namespace {
 
 constexpr Size fullSizes[] = {{1280, 720}, {1920, 1080}};
-constexpr Size quickSizes[] = {{320, 180}, {480, 270}};
+constexpr Size quickSizes[] = {{256, 144}, {384, 216}};
 constexpr std::uint32_t quickShadowMapSize = 512;
 constexpr Size pictureSize = {960, 540};
 constexpr Size quickPictureSize = {640, 360};

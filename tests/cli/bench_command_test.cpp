@@ -1,0 +1,158 @@
+// `nacre bench` as a user runs it: a suite from start to end, comparing runs, bad files, and the report in a browser.
+#include "app/bench/results.hpp"
+#include "command.hpp"
+#include "scene/image.hpp"
+#include "schema.hpp"
+#include "tests/support/bench_sample.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+namespace {
+
+using namespace nacre;
+using namespace nacre::test;
+using bench::formatResults;
+using bench::Results;
+
+class BenchTest : public CommandTest {
+protected:
+    void write(const std::string& name, const Results& results) const {
+        writeText(folder() / name, formatResults(results));
+    }
+
+    /// Runs Chromium on a file of the folder with more arguments; what it printed, then what it logged.
+    std::pair<std::string, std::string> browse(const std::string& file, const std::string& arguments) const {
+        const std::string quoted = '\'' + folder().string() + '\'';
+        const std::string command =
+            "cd " + quoted +
+            " && chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run"
+            " --disable-background-networking --disable-component-update --disable-sync --hide-scrollbars"
+            " --user-data-dir=" +
+            quoted + "/profile --enable-logging=stderr --virtual-time-budget=5000 " + arguments + " 'file://'" +
+            quoted + "/" + file + " >browser.out 2>browser.log";
+        EXPECT_EQ(std::system(command.c_str()), 0) << readText(folder() / "browser.log");
+        return {readText(folder() / "browser.out"), readText(folder() / "browser.log")};
+    }
+
+    void makeReport() const {
+        write("results.json", bench::sample::thesisResults());
+        const std::filesystem::path pictures = bench::sample::writePictures();
+        std::filesystem::copy(pictures / "off.png", folder() / "off.png");
+        std::filesystem::copy(pictures / "on.png", folder() / "on.png");
+        const Outcome outcome = run({"bench", "report", "results.json"});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
+    }
+};
+
+std::size_t countOf(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) {
+        ++count;
+    }
+    return count;
+}
+
+} // namespace
+
+TEST_F(BenchTest, NeedsASuite) {
+    expectComplaint(run({"bench"}), 2, {"subcommand"});
+    expectComplaint(run({"bench", "guess"}), 2, {"subcommand", "nacre bench --help"});
+    expectComplaint(run({"bench", "diff", "old.json"}), 2, {"NEW"});
+}
+
+TEST_F(BenchTest, DiffOfEqualRunsSucceeds) {
+    write("old.json", bench::sample::thesisResults());
+    const Outcome outcome = run({"bench", "diff", "old.json", "old.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    EXPECT_EQ(outcome.output, "the same within noise: 132 of 132 quantities\n");
+}
+
+TEST_F(BenchTest, DiffFailsWhenSomethingGotSlower) {
+    Results slower = bench::sample::thesisResults();
+    write("old.json", slower);
+    slower.measurements[3].effect = bench::sample::times(2 * slower.measurements[3].effect.median);
+    write("new.json", slower);
+    const Outcome outcome = run({"bench", "diff", "old.json", "new.json"});
+    expectComplaint(outcome, 1, {"new.json", "slower or less accurate"});
+    EXPECT_NE(outcome.output.find("+100.0 %"), std::string::npos) << outcome.output;
+}
+
+TEST_F(BenchTest, DiffRefusesWhatItCannotRead) {
+    write("old.json", bench::sample::thesisResults());
+    writeText(folder() / "cut.json", readText(folder() / "old.json").substr(0, 5000));
+    writeText(folder() / "other.json", "{\"layers\": []}");
+    expectComplaint(run({"bench", "diff", "old.json", "cut.json"}), 1, {"cut.json", "parse error"});
+    expectComplaint(run({"bench", "diff", "other.json", "old.json"}), 1, {"other.json", "not a benchmark result"});
+    expectComplaint(run({"bench", "diff", "old.json", "none.json"}), 1, {"none.json"});
+}
+
+TEST_F(BenchTest, RefusesAFolderItCannotWriteTo) {
+    writeText(folder() / "taken", "");
+    expectComplaint(run({"bench", "pareto", "--quick", "-o", "taken"}), 1, {"taken"});
+}
+
+TEST_F(BenchTest, ParetoOfASmallSceneIsComplete) {
+    writeText(folder() / "cube.obj", cubeObj);
+    writeText(folder() / "scene.json", R"({"models": [{"model": "cube.obj", "material": "skin"}]})");
+    const Outcome outcome = run({"bench", "pareto", "--quick", "--scene", "scene.json", "-o", "out"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
+    const std::string json = readText(folder() / "out/results.json");
+    expectMatchesSchema(json, "benchmark.schema.json");
+    const Results results = bench::parseResults(json, "results.json");
+    std::set<std::string> techniques;
+    for (const bench::Measurement& measurement : results.measurements) {
+        techniques.insert(measurement.technique);
+        ASSERT_TRUE(measurement.error) << measurement.id;
+        EXPECT_GT(measurement.error->psnr, 15) << measurement.id;
+        EXPECT_GT(measurement.effect.median, 0) << measurement.id;
+        EXPECT_NEAR(measurement.passShare, 1, 0.05) << measurement.id;
+        EXPECT_GT(measurement.copyBytes, 0u) << measurement.id;
+    }
+    EXPECT_EQ(techniques, (std::set<std::string>{"bank", "burley", "separable", "thesis"}));
+    EXPECT_FALSE(results.noiseFloors.empty());
+    EXPECT_TRUE(std::filesystem::exists(folder() / "out/results.csv"));
+    EXPECT_TRUE(std::filesystem::exists(folder() / "out/report.html"));
+}
+
+TEST_F(BenchTest, ReportOpensInABrowserWithEverythingDrawn) {
+    makeReport();
+    const auto [page, log] = browse("report.html", "--dump-dom");
+    EXPECT_EQ(countOf(log, "CONSOLE"), 0u) << log;
+    EXPECT_NE(page.find("data-drawn=\"3\""), std::string::npos) << "the script did not reach its end";
+    EXPECT_EQ(countOf(page, "<canvas"), 3u);
+}
+
+TEST_F(BenchTest, ReportIsLegibleAt1280Pixels) {
+    makeReport();
+    browse("report.html", "--window-size=1280,2000 --screenshot=page.png");
+    const scene::Texture page = scene::readTexture(folder() / "page.png", true);
+    ASSERT_EQ(page.width, 1280u);
+    // Ink of the plots' lines, in the colours of the first two techniques, and of text near the right-hand side.
+    std::size_t blue = 0;
+    std::size_t vermilion = 0;
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < page.pixels.size(); i += 4) {
+        const int red = page.pixels[i];
+        const int green = page.pixels[i + 1];
+        const int other = page.pixels[i + 2];
+        blue += red < 20 && std::abs(green - 114) < 20 && std::abs(other - 178) < 20 ? 1 : 0;
+        vermilion += std::abs(red - 213) < 20 && std::abs(green - 94) < 20 && other < 20 ? 1 : 0;
+        dark += red < 60 && green < 60 && other < 60 ? 1 : 0;
+    }
+    EXPECT_GT(blue, 2000u);
+    EXPECT_GT(vermilion, 2000u);
+    EXPECT_GT(dark, 10000u);
+    // Nothing is wider than the page: its last columns are paper.
+    for (std::uint32_t y = 0; y < page.height; ++y) {
+        ASSERT_GT(page.pixels[4 * (std::size_t{y} * page.width + 1270)], 240) << "row " << y;
+    }
+}
+
+TEST_F(BenchTest, ReportPrints) {
+    makeReport();
+    browse("report.html", "--print-to-pdf=page.pdf --no-pdf-header-footer");
+    EXPECT_EQ(readText(folder() / "page.pdf").substr(0, 5), "%PDF-");
+    EXPECT_GT(std::filesystem::file_size(folder() / "page.pdf"), 20'000u);
+}
