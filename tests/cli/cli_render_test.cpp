@@ -247,7 +247,7 @@ std::string cubesScene() {
 TEST_F(RenderTest, OneAndSixtyFourMaterialsCostTheSameDispatches) {
     writeText(folder() / "cube.obj", nacre::test::cubeObj);
     writeText(folder() / "cubes.json", cubesScene());
-    for (const std::string technique : {"bank", "separable", "brute"}) {
+    for (const std::string technique : {"bank", "separable", "burley", "brute"}) {
         const nlohmann::json many = render({"cubes.json", "--technique", technique});
         const nlohmann::json one = render({"cubes.json", "--technique", technique, "--material", "wax"});
         EXPECT_EQ(many["scene"]["materialCount"], 64);
