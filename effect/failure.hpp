@@ -3,8 +3,12 @@
 
 #include "nacre/nacre.h"
 
+#include <array>
+#include <charconv>
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace nacre::effect {
 
@@ -12,6 +16,31 @@ namespace nacre::effect {
 struct Failure : std::runtime_error {
     Failure(NacreResult code, const std::string& message) : std::runtime_error(message), result(code) {}
     NacreResult result;
+};
+
+/// The name of a field, put together without an allocation: recording makes one for every check.
+class FieldName {
+public:
+    FieldName(std::string_view text) { append(text); } // NOLINT: every text is a name
+    FieldName(const char* text) : FieldName(std::string_view(text)) {}
+    FieldName operator+(std::string_view text) const {
+        FieldName longer = *this;
+        longer.append(text);
+        return longer;
+    }
+    FieldName at(std::uint32_t index) const {
+        std::array<char, 10> digits;
+        const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), index).ptr;
+        return *this + "[" + std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())) + "]";
+    }
+    friend std::ostream& operator<<(std::ostream& stream, const FieldName& name) {
+        return stream << std::string_view(name.text_.data(), name.size_);
+    }
+
+private:
+    void append(std::string_view text) { size_ += text.copy(text_.data() + size_, text_.size() - size_); }
+    std::array<char, 96> text_;
+    std::size_t size_ = 0;
 };
 
 /// Throws a Failure whose message is the parts, one after the other.

@@ -37,7 +37,7 @@ constexpr Pass passes[] = {
     {.name = "nacre transmit", .spirv = transmit_spv, .reads = bit(Intermediate::NoShadowMap), .grid = tiles<8, 8>},
 };
 
-void checkLight(const NacreLight& light, const std::string& field, std::uint32_t shadowMapCount) {
+void checkLight(const NacreLight& light, const FieldName& field, std::uint32_t shadowMapCount) {
     if (light.kind < NACRE_LIGHT_DIRECTIONAL || light.kind > NACRE_LIGHT_POINT) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".kind is ", static_cast<int>(light.kind),
              ", must be a NacreLightKind");
@@ -45,7 +45,7 @@ void checkLight(const NacreLight& light, const std::string& field, std::uint32_t
     checkFinite(light.position, field + ".position");
     checkFinite(light.irradiance, field + ".irradiance");
     for (const float value : light.irradiance) {
-        checkRange(value, 0, 3e38f, (field + ".irradiance").c_str());
+        checkRange(value, 0, 3e38f, field + ".irradiance");
     }
     if (light.kind != NACRE_LIGHT_POINT) {
         checkFinite(light.direction, field + ".direction");
@@ -53,10 +53,10 @@ void checkLight(const NacreLight& light, const std::string& field, std::uint32_t
             fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".direction is 0,0,0, must have a length");
         }
     }
-    checkRange(light.range, 0, 3e38f, (field + ".range").c_str());
+    checkRange(light.range, 0, 3e38f, field + ".range");
     if (light.kind == NACRE_LIGHT_SPOT) {
-        checkRange(light.outerConeAngle, 0, std::numbers::pi_v<float> / 2, (field + ".outerConeAngle").c_str());
-        checkRange(light.innerConeAngle, 0, light.outerConeAngle, (field + ".innerConeAngle").c_str());
+        checkRange(light.outerConeAngle, 0, std::numbers::pi_v<float> / 2, field + ".outerConeAngle");
+        checkRange(light.innerConeAngle, 0, light.outerConeAngle, field + ".innerConeAngle");
     }
     if (light.shadowMap == NACRE_NO_SHADOW_MAP) {
         return;
@@ -115,10 +115,10 @@ void checkLights(const Context& context, const NacreTransmitInfo& info) {
         checkGiven(info.shadowMaps, "NacreTransmitInfo::shadowMaps");
     }
     for (std::uint32_t i = 0; i < info.shadowMapCount; ++i) {
-        checkShadowMap(info.shadowMaps[i], "NacreTransmitInfo::shadowMaps[" + std::to_string(i) + "]");
+        checkShadowMap(info.shadowMaps[i], FieldName("NacreTransmitInfo::shadowMaps").at(i));
     }
     for (std::uint32_t i = 0; i < info.lightCount; ++i) {
-        checkLight(info.lights[i], "NacreTransmitInfo::lights[" + std::to_string(i) + "]", info.shadowMapCount);
+        checkLight(info.lights[i], FieldName("NacreTransmitInfo::lights").at(i), info.shadowMapCount);
     }
 }
 

@@ -33,8 +33,7 @@ NacreImageRequirements slot(const char* name, const VkFormat (&formats)[count], 
     return {name, static_cast<std::uint32_t>(count), formats, usage, optional ? VK_TRUE : VK_FALSE};
 }
 
-void checkFormatAndUsage(const NacreImage& image, const NacreImageRequirements& requirements,
-                         const std::string& field) {
+void checkFormatAndUsage(const NacreImage& image, const NacreImageRequirements& requirements, const FieldName& field) {
     const std::span formats(requirements.formats, requirements.formatCount);
     if (std::find(formats.begin(), formats.end(), image.format) == formats.end()) {
         std::string allowed;
@@ -94,13 +93,13 @@ NacreImageRequirements imageRequirements(NacreImageSlot which) {
     }
 }
 
-void checkRange(float value, float low, float high, const char* field) {
+void checkRange(float value, float low, float high, const FieldName& field) {
     if (!(value >= low && value <= high)) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", value, ", must be in [", low, ", ", high, "]");
     }
 }
 
-void checkFinite(std::span<const float> values, const std::string& field) {
+void checkFinite(std::span<const float> values, const FieldName& field) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!std::isfinite(values[i])) {
             fail(NACRE_ERROR_INVALID_ARGUMENT, field, "[", i, "] is ", values[i], ", must be finite");
@@ -108,12 +107,12 @@ void checkFinite(std::span<const float> values, const std::string& field) {
     }
 }
 
-VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const std::string& info) {
+VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const FieldName& info) {
     VkRect2D area = view.renderArea;
     if (area.extent.width == 0 && area.extent.height == 0) {
         area = {{0, 0}, extent};
     }
-    const std::string field = info + "::view.renderArea";
+    const FieldName field = info + "::view.renderArea";
     if (area.extent.width == 0 || area.extent.height == 0) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".extent is ", area.extent.width, "x", area.extent.height,
              ", must not be empty");
@@ -129,7 +128,7 @@ VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExte
     return area;
 }
 
-bool checkImage(const NacreImage& image, NacreImageSlot which, const VkRect2D& area, const std::string& field) {
+bool checkImage(const NacreImage& image, NacreImageSlot which, const VkRect2D& area, const FieldName& field) {
     const NacreImageRequirements requirements = imageRequirements(which);
     if (image.view == VK_NULL_HANDLE) {
         if (!requirements.optional) {
@@ -147,7 +146,7 @@ bool checkImage(const NacreImage& image, NacreImageSlot which, const VkRect2D& a
     return true;
 }
 
-void checkShadowMap(const NacreImage& image, const std::string& field) {
+void checkShadowMap(const NacreImage& image, const FieldName& field) {
     if (image.view == VK_NULL_HANDLE) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".view is null");
     }

@@ -4,7 +4,6 @@
 #include "failure.hpp"
 
 #include <span>
-#include <string>
 
 namespace nacre::effect {
 
@@ -19,18 +18,18 @@ template <typename Handle> void checkGiven(Handle handle, const char* field) {
 }
 
 /// Throws when a value is not finite or not within [low, high].
-void checkRange(float value, float low, float high, const char* field);
+void checkRange(float value, float low, float high, const FieldName& field);
 /// Throws when a value is not finite.
-void checkFinite(std::span<const float> values, const std::string& field);
+void checkFinite(std::span<const float> values, const FieldName& field);
 
 /// The part of the images that is worked on: `view.renderArea`, or all of `extent`. Throws when it is empty, larger
 /// than maxExtent or reaches out of the image.
-VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const std::string& info);
+VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const FieldName& info);
 
 /// Throws when an image (required unless its slot is optional) lacks what its slot needs or does not cover the area.
 /// `field` is the struct and member, e.g. "NacreScatterInfo::depth". Returns whether it is given.
-bool checkImage(const NacreImage& image, NacreImageSlot slot, const VkRect2D& area, const std::string& field);
+bool checkImage(const NacreImage& image, NacreImageSlot slot, const VkRect2D& area, const FieldName& field);
 /// The same for an image whose pixels are not the view's: a shadow map.
-void checkShadowMap(const NacreImage& image, const std::string& field);
+void checkShadowMap(const NacreImage& image, const FieldName& field);
 
 } // namespace nacre::effect

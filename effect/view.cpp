@@ -22,7 +22,7 @@ vec2 toFloat(Vector2 v) {
 
 /// Clip x and y are A·(x, y) + b(z); with A's inverse a pixel's ray is affine in the pixel's position.
 void setRays(ViewParameters& parameters, const Matrix& clip, const VkRect2D& area, double mmPerUnit,
-             const std::string& field) {
+             const FieldName& field) {
     const double a = clip(0, 0) / mmPerUnit, b = clip(0, 1) / mmPerUnit;
     const double c = clip(1, 0) / mmPerUnit, d = clip(1, 1) / mmPerUnit;
     const double determinant = a * d - b * c;
@@ -48,7 +48,7 @@ void setRays(ViewParameters& parameters, const Matrix& clip, const VkRect2D& are
     parameters.depthRow = {row(0), row(1), row(2), static_cast<float>(clip(2, 3))};
 }
 
-void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, const std::string& field) {
+void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, const FieldName& field) {
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             double dot = 0;
@@ -83,14 +83,14 @@ void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, 
 } // namespace
 
 void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& area, bool worldMatrix,
-             const std::string& info) {
-    const std::string clipField = info + "::view.clipFromView";
+             const FieldName& info) {
+    const FieldName clipField = info + "::view.clipFromView";
     checkFinite(view.clipFromView, clipField);
     if (view.depthEncoding != NACRE_DEPTH_LINEAR && view.depthEncoding != NACRE_DEPTH_HARDWARE) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::view.depthEncoding is ", static_cast<int>(view.depthEncoding));
     }
     const float metersPerUnit = view.metersPerUnit == 0 ? 1.0f : view.metersPerUnit;
-    checkRange(metersPerUnit, 1e-6f, 1e6f, (info + "::view.metersPerUnit").c_str());
+    checkRange(metersPerUnit, 1e-6f, 1e6f, info + "::view.metersPerUnit");
     const double mmPerUnit = 1000.0 * metersPerUnit;
 
     const Matrix clip{view.clipFromView};

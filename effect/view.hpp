@@ -1,16 +1,16 @@
 // The caller's camera as the shaders use it.
 #pragma once
 
+#include "failure.hpp"
+
 #include "nacre/nacre.h"
 #include "shaders/shared.h"
-
-#include <string>
 
 namespace nacre::effect {
 
 /// Fills the camera's part of `parameters` from a view and its render area. Throws a Failure naming `info`'s field when
 /// a matrix is no camera's. worldMatrix: whether viewFromWorld is used.
 void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& area, bool worldMatrix,
-             const std::string& info);
+             const FieldName& info);
 
 } // namespace nacre::effect

@@ -1,6 +1,7 @@
 #include "tests/gpu/support/counted_calls.hpp"
 
 #include <string_view>
+#include <type_traits>
 #include <vulkan/vulkan.h>
 
 namespace nacre::tests {
@@ -16,6 +17,11 @@ struct Counted<real, member, also> {
         ++(callCounts().*member);
         if constexpr (also != nullptr) {
             ++(callCounts().*also);
+        }
+        if constexpr (std::is_void_v<Result>) {
+            if (callCounts().dry) {
+                return;
+            }
         }
         return real(arguments...);
     }
@@ -38,17 +44,43 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL countingGetDeviceProcAddr(VkDevice devi
         {"vkCmdWriteTimestamp", counted<&vkCmdWriteTimestamp, &CallCounts::commands>()},
         {"vkCmdFillBuffer", counted<&vkCmdFillBuffer, &CallCounts::commands>()},
         {"vkCmdPushConstants", counted<&vkCmdPushConstants, &CallCounts::commands>()},
-        {"vkAllocateMemory", counted<&vkAllocateMemory, &CallCounts::allocations>()},
+        {"vkUpdateDescriptorSets", counted<&vkUpdateDescriptorSets, &CallCounts::updates>()},
+        {"vkMapMemory", counted<&vkMapMemory, &CallCounts::allocations>()},
+        {"vkCreateImageView", counted<&vkCreateImageView, &CallCounts::allocations>()},
+        {"vkCreateShaderModule", counted<&vkCreateShaderModule, &CallCounts::allocations>()},
+        {"vkCreateComputePipelines", counted<&vkCreateComputePipelines, &CallCounts::allocations>()},
+        {"vkCreateDescriptorPool", counted<&vkCreateDescriptorPool, &CallCounts::allocations>()},
+        {"vkAllocateMemory", counted<&vkAllocateMemory, &CallCounts::allocations, &CallCounts::memories>()},
         {"vkAllocateDescriptorSets", counted<&vkAllocateDescriptorSets, &CallCounts::allocations>()},
         {"vkCreateBuffer", counted<&vkCreateBuffer, &CallCounts::allocations>()},
         {"vkCreateImage", counted<&vkCreateImage, &CallCounts::allocations>()},
     };
+    for (const std::string_view wait : {"vkQueueSubmit", "vkQueueSubmit2", "vkQueueWaitIdle", "vkDeviceWaitIdle",
+                                        "vkWaitForFences", "vkWaitSemaphores"}) {
+        callCounts().waits += wait == name ? 1 : 0;
+    }
     for (const auto& function : functions) {
         if (function.name == name) {
             return function.function;
         }
     }
     return vkGetDeviceProcAddr(device, name);
+}
+
+// Debug labels are instance functions without a symbol; the instance's are kept here.
+PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+
+VKAPI_ATTR void VKAPI_CALL countingBeginLabel(VkCommandBuffer commandBuffer, const VkDebugUtilsLabelEXT* label) {
+    if (!callCounts().dry) {
+        beginLabel(commandBuffer, label);
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL countingEndLabel(VkCommandBuffer commandBuffer) {
+    if (!callCounts().dry) {
+        endLabel(commandBuffer);
+    }
 }
 
 } // namespace
@@ -62,7 +94,16 @@ PFN_vkVoidFunction countingGetInstanceProcAddr(VkInstance instance, const char* 
     if (std::string_view(name) == "vkGetDeviceProcAddr") {
         return reinterpret_cast<PFN_vkVoidFunction>(&countingGetDeviceProcAddr);
     }
-    return vkGetInstanceProcAddr(instance, name);
+    const PFN_vkVoidFunction function = vkGetInstanceProcAddr(instance, name);
+    if (function && std::string_view(name) == "vkCmdBeginDebugUtilsLabelEXT") {
+        beginLabel = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(function);
+        return reinterpret_cast<PFN_vkVoidFunction>(&countingBeginLabel);
+    }
+    if (function && std::string_view(name) == "vkCmdEndDebugUtilsLabelEXT") {
+        endLabel = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(function);
+        return reinterpret_cast<PFN_vkVoidFunction>(&countingEndLabel);
+    }
+    return function;
 }
 
 } // namespace nacre::tests

@@ -9,7 +9,11 @@ namespace nacre::tests {
 struct CallCounts {
     int dispatches = 0;  ///< vkCmdDispatch, vkCmdDispatchIndirect
     int commands = 0;    ///< every vkCmd… the effect knows, dispatches included
-    int allocations = 0; ///< vkAllocateMemory, vkAllocateDescriptorSets, vkCreateBuffer, vkCreateImage
+    int allocations = 0; ///< vkAllocate…, vkCreate…, vkMapMemory
+    int memories = 0;    ///< vkAllocateMemory
+    int updates = 0;     ///< vkUpdateDescriptorSets
+    int waits = 0;       ///< how often a function that submits or waits was asked for
+    bool dry = false;    ///< calls without a result are counted and go no further
 };
 
 CallCounts& callCounts();
