@@ -50,6 +50,51 @@ FloatImage makeImage(const float* pixels, int width, int height) {
     return image;
 }
 
+struct ExrImage : EXRImage {
+    ExrImage() { InitEXRImage(this); }
+    ExrImage(const ExrImage&) = delete;
+    ~ExrImage() {
+        if (isLoaded) { // tinyexr frees what it could not load, and does not reset the pointers
+            FreeEXRImage(this);
+        }
+    }
+    bool isLoaded = false;
+};
+
+/// The file's channels for red, green, blue and alpha; -1 for an alpha that is not there.
+std::array<int, 4> findChannels(const EXRHeader& header, const std::string& name) {
+    std::array<int, 4> found{-1, -1, -1, -1};
+    constexpr std::array names{"R", "G", "B", "A"};
+    for (int channel = 0; channel < header.num_channels; ++channel) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            found[i] = std::strcmp(header.channels[channel].name, names[i]) == 0 ? channel : found[i];
+        }
+    }
+    if (header.num_channels == 1) {
+        found = {0, 0, 0, -1};
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (found[i] < 0) {
+            throw SceneError(name + ": has no channel " + names[i]);
+        }
+    }
+    return found;
+}
+
+/// Copies a block of `planes`, `stride` pixels wide, to (x, y) as far as it is inside the image.
+void copyBlock(unsigned char** planes, const std::array<int, 4>& channels, std::size_t stride, std::size_t rows,
+               std::size_t x, std::size_t y, FloatImage& image) {
+    for (std::size_t row = 0; row < rows && y + row < image.height; ++row) {
+        for (std::size_t column = 0; column < stride && x + column < image.width; ++column) {
+            float* pixel = &image.pixels[((y + row) * image.width + x + column) * 4];
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto* plane = channels[i] >= 0 ? reinterpret_cast<const float*>(planes[channels[i]]) : nullptr;
+                pixel[i] = plane != nullptr ? plane[row * stride + column] : 1.0f;
+            }
+        }
+    }
+}
+
 FloatImage decodeExr(std::span<const std::uint8_t> bytes, const std::string& name) {
     EXRVersion version{};
     if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS) {
@@ -59,30 +104,38 @@ FloatImage decodeExr(std::span<const std::uint8_t> bytes, const std::string& nam
         throw SceneError(name + ": multi-part and deep OpenEXR files are not supported");
     }
     const char* message = nullptr;
-    bool oneChannel = false;
-    {
-        ExrHeader header;
-        if (ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
-            throw SceneError(name + ": the OpenEXR header is damaged: " + takeMessage(message));
-        }
-        const EXRBox2i& box = header.data_window;
-        checkSize(name, std::int64_t{box.max_x} - box.min_x + 1, std::int64_t{box.max_y} - box.min_y + 1);
-        const std::span types(header.pixel_types, static_cast<std::size_t>(header.num_channels));
-        if (std::ranges::count(types, TINYEXR_PIXELTYPE_UINT) > 0) {
+    ExrHeader header;
+    if (ParseEXRHeaderFromMemory(&header, &version, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+        throw SceneError(name + ": the OpenEXR header is damaged: " + takeMessage(message));
+    }
+    const EXRBox2i& box = header.data_window;
+    checkSize(name, std::int64_t{box.max_x} - box.min_x + 1, std::int64_t{box.max_y} - box.min_y + 1);
+    for (int channel = 0; channel < header.num_channels; ++channel) {
+        if (header.pixel_types[channel] == TINYEXR_PIXELTYPE_UINT) {
             throw SceneError(name + ": integer channels of OpenEXR are not supported");
         }
-        oneChannel = header.num_channels == 1;
+        header.requested_pixel_types[channel] = TINYEXR_PIXELTYPE_FLOAT;
     }
-    float* decoded = nullptr;
-    int width = 0;
-    int height = 0;
-    if (LoadEXRFromMemory(&decoded, &width, &height, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+    const std::array<int, 4> channels = findChannels(header, name);
+    ExrImage source;
+    source.num_channels = header.num_channels; // else tinyexr does not free the planes of what it could not load
+    if (LoadEXRImageFromMemory(&source, &header, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
         throw SceneError(name + ": the OpenEXR file cannot be decoded: " + takeMessage(message));
     }
-    const std::unique_ptr<float, decltype(&std::free)> owner(decoded, std::free);
-    FloatImage image = makeImage(decoded, width, height);
-    for (std::size_t alpha = 3; oneChannel && alpha < image.pixels.size(); alpha += 4) {
-        image.pixels[alpha] = 1; // tinyexr spreads a single channel over alpha too
+    source.isLoaded = true;
+    FloatImage image;
+    image.width = static_cast<std::uint32_t>(source.width);
+    image.height = static_cast<std::uint32_t>(source.height);
+    image.pixels.resize(std::size_t{image.width} * image.height * 4);
+    if (source.images != nullptr) {
+        copyBlock(source.images, channels, image.width, image.height, 0, 0, image);
+    }
+    const auto tileWidth = static_cast<std::size_t>(header.tile_size_x);
+    const auto tileHeight = static_cast<std::size_t>(header.tile_size_y);
+    for (int i = 0; source.tiles != nullptr && i < source.num_tiles; ++i) {
+        const EXRTile& tile = source.tiles[i];
+        copyBlock(tile.images, channels, tileWidth, tileHeight, static_cast<std::size_t>(tile.offset_x) * tileWidth,
+                  static_cast<std::size_t>(tile.offset_y) * tileHeight, image);
     }
     return image;
 }
