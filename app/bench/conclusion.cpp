@@ -47,9 +47,13 @@ std::vector<const Fit*> largestOf(std::vector<const Fit*> fits) {
 }
 
 std::string thesisSentence(const Fit& fit) {
-    const bool reproduced = verdictOf(fit) == "grows" && fit.line.rSquared >= linearFrom;
-    std::string text = "the thesis's technique grows by " + formatSlope(fit) + at(fit) + " (" + formatR2(fit.line) +
-                       "), " + (reproduced ? "its straight line" : "which is not the thesis's straight line");
+    const std::string slope = formatSlope(fit) + at(fit) + " (" + formatR2(fit.line) + ")";
+    if (verdictOf(fit) != "grows") {
+        return "the thesis's technique is " + verdictOf(fit) + ": " + slope + ", where the thesis has a straight line";
+    }
+    const bool reproduced = fit.line.rSquared >= linearFrom;
+    std::string text = "the thesis's technique grows by " + slope + ", " +
+                       (reproduced ? "its straight line" : "which is not the thesis's straight line");
     if (fit.series == "experiment 2" && reproduced) {
         text += "; the hardware of 2011 needed " + formatTime(thesis::radiusSlope1080) + " at 1920x1080";
     }

@@ -98,11 +98,5 @@
     move();
   });
 
-  // On paper nothing is folded away.
-  window.addEventListener("beforeprint", () => {
-    document.querySelectorAll("details").forEach((element) => { element.open = true; });
-    drawn.forEach((chart) => chart.resize());
-  });
-  window.addEventListener("afterprint", () => drawn.forEach((chart) => chart.resize()));
   document.documentElement.dataset.drawn = String(drawn.length);
 })();
