@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every test: the whole suite optimised, then the CPU tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+# Every test: the whole suite optimised, then the CPU tests under AddressSanitizer and UndefinedBehaviorSanitizer,
+# then two contexts on two threads under ThreadSanitizer.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -13,7 +14,7 @@ run_preset() {
 }
 
 status=0
-for preset in release asan; do
+for preset in release asan tsan; do
     echo "== $preset ==" | tee -a "$log"
     run_preset "$preset" || status=$?
 done
