@@ -56,12 +56,20 @@ float cellMass(int offset, float scale) {
     return 0.5 * (errorFunction((float(offset) + 0.5) * scale) - errorFunction((float(offset) - 0.5) * scale));
 }
 
+// How much more of a Gaussian a pixel's surface holds than one of the receiver's slope would: its area over the
+// receiver's, until its steep side reaches further than the Gaussian does; scale = pixel size / √(8·variance).
+float areaRatio(float area, float receiverArea, float scale) {
+    float ratio = area / receiverArea;
+    return ratio <= 1.0 || scale < 1e-3 ? ratio : errorFunction(ratio * scale) / errorFunction(scale);
+}
+
 // One Gaussian layer over the square's cells. On the tangent plane its integral over a cell is a product of error
 // functions; where the surface leaves the plane, or the pixel grid is skewed on it, the true distance corrects it.
 void addLayer(Receiver receiver, vec4 layer, inout Sum sum) {
     float variance = max(layer.w, 1e-8);
     vec2 stepLength = vec2(length(receiver.plane.x), length(receiver.plane.y));
     vec2 scale = stepLength * inversesqrt(2.0 * variance);
+    float areaScale = 0.5 * sqrt(scale.x * scale.y);
     for (int y = -cellRadius; y <= cellRadius; ++y) {
         float rowMass = cellMass(y, scale.y);
         if (rowMass < 1e-9) {
@@ -75,7 +83,8 @@ void addLayer(Receiver receiver, vec4 layer, inout Sum sum) {
                 vec2 flatOffset = vec2(x, y) * stepLength;
                 float excess = dot(difference, difference) - dot(flatOffset, flatOffset);
                 float correction = exp(clamp(-excess / (2.0 * variance), -80.0, 4.0));
-                vec3 weight = layer.rgb * (mass * correction * pixel.light.w / (stepLength.x * stepLength.y));
+                float areas = areaRatio(pixel.light.w, stepLength.x * stepLength.y, areaScale);
+                vec3 weight = layer.rgb * (mass * correction * areas);
                 sum.light += weight * pixel.light.rgb;
                 sum.weight += weight;
             }
