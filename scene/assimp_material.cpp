@@ -77,8 +77,8 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initiali
         const std::string reference = path.C_Str();
         const auto [entry, isNew] = textures_.try_emplace({reference, srgb}, none);
         if (isNew) {
-            const std::string field = file_.string() + ": material \"" + material.GetName().C_Str() +
-                                      "\": texture \"" + reference + "\"";
+            const std::string field =
+                file_.string() + ": material \"" + material.GetName().C_Str() + "\": texture \"" + reference + "\"";
             scene_.textures.push_back(load(reference, field, srgb));
             entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
         }

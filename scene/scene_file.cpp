@@ -49,6 +49,70 @@ glm::mat4 readTransform(SceneFileObject& model) {
     return glm::scale(transform, scale);
 }
 
+/// Keeps of `items` those that are marked; the result says where each has gone.
+template <typename T> std::vector<std::uint32_t> keepMarked(std::vector<T>& items, const std::vector<bool>& marked) {
+    std::vector<std::uint32_t> moved(items.size(), none);
+    std::vector<T> kept;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (marked[i]) {
+            moved[i] = static_cast<std::uint32_t>(kept.size());
+            kept.push_back(std::move(items[i]));
+        }
+    }
+    items = std::move(kept);
+    return moved;
+}
+
+/// The textures a surface refers to.
+std::array<std::uint32_t*, 4> texturesOf(Surface& surface) {
+    return {&surface.baseColorTexture, &surface.normalTexture, &surface.metallicRoughnessTexture,
+            &surface.thicknessTexture};
+}
+
+/// Drops meshes, surfaces, materials and textures that no instance uses.
+void dropUnused(Scene& model) {
+    std::vector<bool> meshes(model.meshes.size());
+    std::vector<bool> surfaces(model.surfaces.size());
+    std::vector<bool> materials(model.materials.size());
+    std::vector<bool> textures(model.textures.size());
+    for (const Instance& instance : model.instances) {
+        meshes[instance.mesh] = true;
+        surfaces[model.meshes[instance.mesh].surface] = true;
+    }
+    const auto mark = [](std::vector<bool>& marks, std::uint32_t index) {
+        if (index != none) {
+            marks[index] = true;
+        }
+    };
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (surfaces[i]) {
+            mark(materials, model.surfaces[i].material);
+            for (const std::uint32_t* texture : texturesOf(model.surfaces[i])) {
+                mark(textures, *texture);
+            }
+        }
+    }
+    const auto follow = [](std::uint32_t& index, const std::vector<std::uint32_t>& moved) {
+        index = index == none ? none : moved[index];
+    };
+    const auto movedMeshes = keepMarked(model.meshes, meshes);
+    const auto movedSurfaces = keepMarked(model.surfaces, surfaces);
+    const auto movedMaterials = keepMarked(model.materials, materials);
+    const auto movedTextures = keepMarked(model.textures, textures);
+    for (Instance& instance : model.instances) {
+        follow(instance.mesh, movedMeshes);
+    }
+    for (Mesh& mesh : model.meshes) {
+        follow(mesh.surface, movedSurfaces);
+    }
+    for (Surface& surface : model.surfaces) {
+        follow(surface.material, movedMaterials);
+        for (std::uint32_t* texture : texturesOf(surface)) {
+            follow(*texture, movedTextures);
+        }
+    }
+}
+
 /// Drops the instances that are not named.
 void keepInstances(SceneFileObject& object, Scene& model) {
     const nlohmann::json* names = object.member("instances");
@@ -121,6 +185,7 @@ private:
         model.metersPerUnit = object.has("units") ? units[unit].metres : model.metersPerUnit;
         keepInstances(object, model);
         assignMaterials(path_, object, model);
+        dropUnused(model);
         const auto unitScale = static_cast<float>(model.metersPerUnit / scene_.metersPerUnit);
         const glm::mat4 transform = readTransform(object) * glm::scale(glm::mat4(1), glm::vec3(unitScale));
         const std::string name = object.text("name");
@@ -149,8 +214,7 @@ private:
             index = index == none ? none : index + static_cast<std::uint32_t>(by);
         };
         for (Surface& surface : model.surfaces) {
-            for (std::uint32_t* texture : {&surface.baseColorTexture, &surface.normalTexture,
-                                           &surface.metallicRoughnessTexture, &surface.thicknessTexture}) {
+            for (std::uint32_t* texture : texturesOf(surface)) {
                 shift(*texture, scene_.textures.size());
             }
             shift(surface.material, scene_.materials.size());

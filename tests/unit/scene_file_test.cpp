@@ -289,7 +289,13 @@ TEST(Scenes, ExamplesLoad) {
     for (const fs::directory_entry& entry : fs::directory_iterator(NACRE_SOURCE_DIR "/scenes")) {
         const Scene scene = load(entry.path());
         EXPECT_GT(triangleCount(scene), 0u);
-        EXPECT_FALSE(scene.materials.empty());
+        ASSERT_FALSE(scene.materials.empty());
+        std::set<std::uint32_t> used; // what no instance uses is dropped
+        for (const Instance& instance : scene.instances) {
+            used.insert(scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material);
+        }
+        used.erase(none);
+        EXPECT_EQ(used.size(), scene.materials.size());
     }
 }
 
