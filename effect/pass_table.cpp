@@ -17,6 +17,8 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
      .array = true},
     {.name = "nacre bank raw pyramid", .bytes = bankRawBytes},
     {.name = "nacre bank blurred pyramid", .bytes = bankBlurredBytes},
+    {.name = "nacre bank blurred surfaces", .bytes = bankBlurredBytes},
+    {.name = "nacre bank quads", .bytes = bankQuadBytes},
     {.name = "nacre bank tiles", .bytes = bankTileBytes},
 }};
 

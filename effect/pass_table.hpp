@@ -20,6 +20,8 @@ enum class Intermediate : std::uint32_t {
     NoShadowMap = intermediateNoShadowMap,
     BankRaw = intermediateBankRaw,
     BankBlurred = intermediateBankBlurred,
+    BankSurfaces = intermediateBankSurfaces,
+    BankQuads = intermediateBankQuads,
     BankTiles = intermediateBankTiles,
     Count
 };
@@ -58,7 +60,10 @@ struct Pass {
 /// Sizes of the bank's buffers (scatter_bank.cpp).
 VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
+VkDeviceSize bankQuadBytes(VkExtent2D maxExtent);
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent);
+/// Fills ScatterParameters::bankLevels for a render area (scatter_bank.cpp).
+void setBankLevels(ScatterParameters& parameters, VkExtent2D area);
 
 /// A grid of one workgroup per width × height px.
 template <std::uint32_t width, std::uint32_t height> VkExtent3D tiles(VkExtent2D area) {

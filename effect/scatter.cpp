@@ -83,6 +83,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     view.flags |= context.materials->haveSeparate(info.frame) ? flagSeparateMaterials : 0u;
     parameters.pixelWidth = pixelWidth(view);
     setTechnique(parameters, context, info);
+    setBankLevels(parameters, area.extent);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
 
     // From here on nothing fails.

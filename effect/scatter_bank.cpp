@@ -41,12 +41,16 @@ VkExtent2D levelExtent(VkExtent2D area, int level) {
                               : VkExtent2D{(tiles.width + 1) / 2, (tiles.height + 1) / 2};
 }
 
-// One workgroup per 16x16 texels of any level, in rows of at most bankDispatchWidth.
+// Blocks of 16x16 texels that cover a level.
+std::uint32_t blockCount(VkExtent2D level) {
+    return (level.width + blurSide - 1) / blurSide * ((level.height + blurSide - 1) / blurSide);
+}
+
+// One workgroup per block of any level, in rows of at most bankDispatchWidth.
 VkExtent3D blurGrid(VkExtent2D area) {
     std::uint32_t count = 0;
     for (int level = 1; level <= bankLevels; ++level) {
-        const VkExtent2D extent = levelExtent(area, level);
-        count += (extent.width + blurSide - 1) / blurSide * ((extent.height + blurSide - 1) / blurSide);
+        count += blockCount(levelExtent(area, level));
     }
     return {std::min<std::uint32_t>(count, bankDispatchWidth), (count + bankDispatchWidth - 1) / bankDispatchWidth, 1};
 }
@@ -59,27 +63,28 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
                 table.halves().size_bytes());
 }
 
-constexpr IntermediateSet pyramids = bit(Intermediate::BankRaw) | bit(Intermediate::BankBlurred);
+constexpr IntermediateSet blurred = bit(Intermediate::BankBlurred) | bit(Intermediate::BankSurfaces);
+constexpr IntermediateSet quads = bit(Intermediate::BankQuads);
 constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
 
 constexpr Pass passes[] = {
     {.name = "nacre bank reduce",
      .spirv = bank_reduce_spv,
-     .writes = bit(Intermediate::BankRaw) | tiles,
+     .writes = bit(Intermediate::BankRaw) | quads | tiles,
      .grid = nacre::effect::tiles<tileSize, tileSize>},
     {.name = "nacre bank blur",
      .spirv = bank_blur_spv,
      .reads = bit(Intermediate::BankRaw),
-     .writes = bit(Intermediate::BankBlurred) | tiles,
+     .writes = blurred | tiles,
      .grid = blurGrid},
     {.name = "nacre bank combine smooth",
      .spirv = bank_combine_smooth_spv,
-     .reads = pyramids | tiles,
+     .reads = blurred | quads | tiles,
      .indirect = Intermediate::BankTiles,
      .indirectOffset = 0},
     {.name = "nacre bank combine edge",
      .spirv = bank_combine_edge_spv,
-     .reads = pyramids | tiles,
+     .reads = blurred | tiles,
      .indirect = Intermediate::BankTiles,
      .indirectOffset = sizeof(BankDispatch)},
 };
@@ -92,14 +97,39 @@ VkDeviceSize bankRawBytes(VkExtent2D maxExtent) {
 }
 
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
-    const VkExtent2D extent = levelExtent(maxExtent, bankLevels);
-    return bankRawBytes(maxExtent) + VkDeviceSize{sizeof(uvec4)} * extent.width * extent.height;
+    const VkExtent2D tiles = tileCount(maxExtent);
+    const VkExtent2D coarsest = levelExtent(maxExtent, bankLevels);
+    return VkDeviceSize{sizeof(uvec2)} *
+           (VkDeviceSize{rawTexelsPerTile} * tiles.width * tiles.height + coarsest.width * coarsest.height);
 }
 
-// The dispatches, then per tile a mark and its places on two lists.
+// One for each texel of level 1.
+VkDeviceSize bankQuadBytes(VkExtent2D maxExtent) {
+    const VkExtent2D finest = levelExtent(maxExtent, 1);
+    return VkDeviceSize{sizeof(uvec4)} * finest.width * finest.height;
+}
+
+// The dispatches, then per tile its bits and, on either list, the places of its two regions.
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent) {
     const VkExtent2D extent = tileCount(maxExtent);
-    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 3 * extent.width * extent.height;
+    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 5 * extent.width * extent.height;
+}
+
+// The levels lie one after the other, finest first; their blocks are blurred coarsest first.
+void setBankLevels(ScatterParameters& parameters, VkExtent2D area) {
+    std::int32_t texels = 0;
+    for (int level = 1; level <= bankLevels; ++level) {
+        const VkExtent2D extent = levelExtent(area, level);
+        const auto width = static_cast<std::int32_t>(extent.width);
+        const auto height = static_cast<std::int32_t>(extent.height);
+        parameters.bankLevels[level] = {texels, width, height, 0};
+        texels += width * height;
+    }
+    std::int32_t blocks = 0;
+    for (int level = bankLevels; level >= 1; --level) {
+        parameters.bankLevels[level].w = blocks;
+        blocks += static_cast<std::int32_t>(blockCount(levelExtent(area, level)));
+    }
 }
 
 const Technique bankTechnique{"bank", passes, tableBytes, buildTable};

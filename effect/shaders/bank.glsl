@@ -6,23 +6,30 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) bu
     uvec4 rawTexels[]; // levels 1 … 5
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) buffer BankBlurred {
-    uvec4 blurredTexels[]; // levels 1 … 6
+    uvec2 blurredLights[]; // levels 1 … 6: light and mass, with a sign where the texel is not plain
+};
+layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std430) buffer BankSurfaces {
+    uvec2 blurredSurfaces[]; // levels 1 … 6: depth; material and presentBit
+};
+layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) buffer BankQuads {
+    // 2x2 px each, as level 1 lies: depth; weights beside the middle of the full-resolution 3x3, x and y; materials.
+    uvec4 quads[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth tiles, edge tiles
-    uint tileEntries[];         // per tile: occupied; then the list of smooth tiles, then that of edge tiles
+    uint tileEntries[]; // per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions, two a tile
 };
 
 const int tileSize = 32; // px; level l has tileSize / 2^l texels a side in each tile
 const int rawLevels = 5; // level 6 is reduced by the blur
 const float maxHalf = 65504.0;
-const uint presentBit = 0x10000u; // in the last word of a blurred texel, above the material
-const uint roughBit = 0x20000u;
+const uint presentBit = 0x10000u; // in the last word of a surface, above the material
+const uint signBit = 0x80000000u;
 
 // A texel of the reduced pyramid.
 struct RawTexel {
-    vec3 light;    // mean irradiance of the surface
-    float area;    // surface per pixel of the texel, relative to one that faces the camera
+    vec3 light;    // irradiance · area, mean over the texel's pixels
+    float area;    // surface per pixel, relative to one that faces the camera, mean over the texel's pixels
     float mass;    // [0, 1] share of the texel's pixels that are on the surface; 0 = empty
     float depth;   // mm, −z in view space
     uint material; // one of the surface's
@@ -57,33 +64,27 @@ RawTexel unpackRaw(uvec4 words) {
                     mass < 0.0);
 }
 
-uvec4 packBlurred(BlurredTexel texel) {
-    return uvec4(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)),
-                 floatBitsToUint(texel.depth),
-                 texel.material | (texel.present ? presentBit : 0u) | (texel.rough ? roughBit : 0u));
-}
-
-BlurredTexel unpackBlurred(uvec4 words) {
-    vec2 redGreen = unpackHalf2x16(words.x);
-    vec2 blueMass = unpackHalf2x16(words.y);
-    return BlurredTexel(vec3(redGreen, blueMass.x), blueMass.y, uintBitsToFloat(words.z), words.w & 0xffffu,
-                        (words.w & presentBit) != 0u, (words.w & roughBit) != 0u);
-}
-
-ivec2 tileCount() {
-    return (view.areaExtent + tileSize - 1) / tileSize;
+// A texel is plain where the surface is and stays smooth: bilinear weights will do for it.
+void storeBlurredTexel(int index, BlurredTexel texel) {
+    uint sign = texel.present && !texel.rough ? 0u : signBit;
+    blurredLights[index] =
+        uvec2(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)) | sign);
+    blurredSurfaces[index] =
+        uvec2(floatBitsToUint(texel.depth), texel.material | (texel.present ? presentBit : 0u));
 }
 
 // Levels are made of whole tiles, level 6 of half ones; what lies outside the image is empty.
 ivec2 levelExtent(int level) {
-    return level <= rawLevels ? tileCount() * (tileSize >> level) : (tileCount() + 1) / 2;
+    return parameters.bankLevels[level].yz;
 }
 
-// The levels lie one after the other: 4^(5 − l) texels a tile in level l, 341 in the first five.
+ivec2 tileCount() {
+    return levelExtent(rawLevels);
+}
+
 int texelIndex(int level, ivec2 texel) {
-    ivec2 tiles = tileCount();
-    int before = 341 - (1365 >> (2 * level)); // Σ 4^(5 − k), k < l
-    return tiles.x * tiles.y * before + texel.y * levelExtent(level).x + texel.x;
+    ivec4 place = parameters.bankLevels[level];
+    return place.x + texel.y * place.y + texel.x;
 }
 
 RawTexel rawTexel(int level, ivec2 texel) {
@@ -111,6 +112,16 @@ float countedWeight(float kernel, float weight, float depthDifference, float wid
 // Whether a texel or pixel gives light to a material. Materials are asked only in frames where some do not exchange.
 bool givesLight(uint from, uint to) {
     return !hasFlag(flagSeparateMaterials) || exchanges(from, to);
+}
+
+// Whether four texels all are on one surface, nearest to farthest depth, so that all of them are kept.
+bool isOneSurface(RawTexel texels[4], int level) {
+    vec4 depths = vec4(texels[0].depth, texels[1].depth, texels[2].depth, texels[3].depth);
+    float nearest = min(min(depths.x, depths.y), min(depths.z, depths.w));
+    float farthest = max(max(depths.x, depths.y), max(depths.z, depths.w));
+    float leastMass = min(min(texels[0].mass, texels[1].mass), min(texels[2].mass, texels[3].mass));
+    return leastMass > 0.0 && farthest - nearest <= bankSurfaceSeparation * texelWidth(level, nearest) &&
+           !hasFlag(flagSeparateMaterials);
 }
 
 // Which of four texels the next level's texel keeps: those of one surface, nearest or farthest, whichever has more
@@ -153,16 +164,16 @@ bvec4 chooseSurface(RawTexel texels[4], int level) {
     return kept;
 }
 
-// The next level's texel from the four below it.
-RawTexel reduceTexels(RawTexel texels[4], bvec4 kept) {
+// The next level's texel from the kept of the four below it.
+RawTexel mergeTexels(RawTexel texels[4], bvec4 kept) {
     RawTexel result = emptyTexel();
     float heaviest = 0.0;
-    for (int i = 0; i < 4; ++i) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
         if (kept[i]) {
-            result.light += texels[i].area * texels[i].light;
-            result.area += texels[i].area;
-            result.mass += texels[i].mass;
-            result.depth += texels[i].mass * texels[i].depth;
+            result.light += 0.25 * texels[i].light;
+            result.area += 0.25 * texels[i].area;
+            result.mass += 0.25 * texels[i].mass;
+            result.depth += 0.25 * texels[i].mass * texels[i].depth;
             if (texels[i].mass > heaviest) {
                 heaviest = texels[i].mass;
                 result.material = texels[i].material;
@@ -170,11 +181,13 @@ RawTexel reduceTexels(RawTexel texels[4], bvec4 kept) {
         }
         result.dropped = result.dropped || (kept[i] ? texels[i].dropped : texels[i].mass > 0.0);
     }
-    if (result.mass > 0.0) {
-        result.light /= result.area;
-        result.depth /= result.mass;
-        result.area *= 0.25;
-        result.mass *= 0.25;
-    }
+    result.depth = result.mass > 0.0 ? result.depth / result.mass : 0.0;
     return result;
+}
+
+RawTexel reduceTexels(RawTexel texels[4], int level) {
+    if (isOneSurface(texels, level)) {
+        return mergeTexels(texels, bvec4(true));
+    }
+    return mergeTexels(texels, chooseSurface(texels, level));
 }

@@ -15,74 +15,143 @@ const int pitch = side + 2 * halo;
 // The five weights, and a 0 on either side for the rows that only one of a pair of texels reads.
 const float binomial[7] = float[](0.0, 1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0, 0.0);
 
-shared uvec4 texels[pitch * pitch];
-shared uint occupiedNear;
-shared uint rough;
+// The block's texels with two around, in the words of packRaw.
+shared uvec2 lights[pitch * pitch];
+shared float depths[pitch * pitch]; // 0 = empty
+shared uint massesAndMaterials[pitch * pitch];
+shared uint rough; // bits of roughness
 
 struct Block {
-    int level; // 0 = none
+    int level;
     ivec2 first; // texel
 };
 
 // The levels' blocks of 16x16 texels, counted from the coarsest level on.
-Block findBlock(uint group) {
-    int index = int(group);
-    for (int level = bankLevels; level >= 1; --level) {
-        ivec2 blocks = (levelExtent(level) + side - 1) / side;
-        if (index < blocks.x * blocks.y) {
-            return Block(level, ivec2(index % blocks.x, index / blocks.x) * side);
-        }
-        index -= blocks.x * blocks.y;
+Block findBlock(int group) {
+    int level = 1;
+    [[unroll]] for (int finer = 1; finer < bankLevels; ++finer) {
+        level += group < parameters.bankLevels[finer].w ? 1 : 0;
     }
-    return Block(0, ivec2(0));
-}
-
-// Level 6 is reduced here, from the level pass A ends with.
-uvec4 loadTexel(int level, ivec2 texel) {
-    if (level <= rawLevels) {
-        bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, levelExtent(level)));
-        return inside ? rawTexels[texelIndex(level, texel)] : uvec4(0u);
-    }
-    RawTexel children[4];
-    for (int i = 0; i < 4; ++i) {
-        children[i] = rawTexel(rawLevels, 2 * texel + ivec2(i & 1, i >> 1));
-    }
-    return packRaw(reduceTexels(children, chooseSurface(children, level)));
-}
-
-bool isOccupied(ivec2 tile) {
-    bool inside = all(greaterThanEqual(tile, ivec2(0))) && all(lessThan(tile, tileCount()));
-    return inside && tileEntries[tile.y * tileCount().x + tile.x] != 0u;
+    ivec4 place = parameters.bankLevels[level];
+    int index = group - place.w;
+    int width = (place.y + side - 1) / side;
+    int row = int((float(index) + 0.5) / float(width));
+    return Block(level, ivec2(index - row * width, row) * side);
 }
 
 // Whether the texel at `neighbor` is a surface further from `depth` than a smooth one's neighbour would be.
 bool isStep(int neighbor, float depth, float limit) {
-    RawTexel tap = unpackRaw(texels[neighbor]);
-    return tap.mass > 0.0 && abs(tap.depth - depth) > limit;
+    float tap = depths[neighbor];
+    return tap != 0.0 && abs(tap - depth) > limit;
 }
 
-// Whether level 1 is rough at a texel, with which a tile's pixels cannot be combined as smooth ones.
-bool isRough(int index) {
-    RawTexel texel = unpackRaw(texels[index]);
-    if (texel.mass <= 0.0) {
-        return false;
+// Bits of a block: texels with a step beside them or pixels left out, among the rows that the tile's upper region
+// reads, and its lower; texels that are not wholly covered; any that are covered at all.
+const uint roughUpper = 1u;
+const uint roughLower = 2u;
+const uint notFull = 4u;
+const uint anything = 8u;
+
+uint roughRows(int row) {
+    return (row < side / 2 + 2 * halo ? roughUpper : 0u) | (row >= side / 2 ? roughLower : 0u);
+}
+
+// Of a texel by itself …
+uint roughnessOf(uvec4 words, int index) {
+    // The mass, a half: 1 is 0x3c00; with a sign it is dropped.
+    return ((words.w & 0xffffu) == 0x3c00u ? 0u : notFull) |
+           ((words.w & 0x8000u) != 0u ? roughRows(index / pitch) : 0u) | (words.z != 0u ? anything : 0u);
+}
+
+bool isStepBetween(float a, float b, float limit) {
+    return min(a, b) > 0.0 && abs(a - b) > limit;
+}
+
+// … and of a 2x2 block of texels, between them and beside them, right and below.
+uint roughnessBetween(int level, ivec2 first) {
+    float block[3][3];
+    [[unroll]] for (int y = 0; y < 3; ++y) {
+        [[unroll]] for (int x = 0; x < 3; ++x) {
+            ivec2 place = min(first + ivec2(x, y), pitch - 1);
+            block[y][x] = depths[place.y * pitch + place.x];
+        }
     }
-    float limit = bankSmoothDepth * texelWidth(1, texel.depth);
-    bool stepRight = index % pitch + 1 < pitch && isStep(index + 1, texel.depth, limit);
-    bool stepBelow = index / pitch + 1 < pitch && isStep(index + pitch, texel.depth, limit);
-    return texel.dropped || stepRight || stepBelow;
+    float limit = bankSmoothDepth * texelWidth(level, block[0][0]);
+    uint result = 0u;
+    [[unroll]] for (int y = 0; y < 2; ++y) {
+        bool steps = false;
+        [[unroll]] for (int x = 0; x < 2; ++x) {
+            steps = steps || isStepBetween(block[y][x], block[y][x + 1], limit) ||
+                    isStepBetween(block[y][x], block[y + 1][x], limit);
+        }
+        result |= steps ? roughRows(first.y + y) : 0u;
+    }
+    return result;
+}
+
+void noteRoughness(uint roughness) {
+    if (roughness != 0u) {
+        atomicOr(rough, roughness);
+    }
+}
+
+void storeShared(int index, uvec4 words) {
+    lights[index] = words.xy;
+    depths[index] = uintBitsToFloat(words.z);
+    massesAndMaterials[index] = words.w;
+}
+
+// All fetches before any of them is used, so that they overlap.
+void loadBlock(Block block, int thread) {
+    const int steps = (pitch * pitch + threads - 1) / threads;
+    uvec4 words[steps];
+    ivec2 extent = levelExtent(block.level);
+    ivec2 first = block.first - halo;
+    [[unroll]] for (int i = 0; i < steps; ++i) {
+        int index = thread + i * threads;
+        ivec2 texel = first + ivec2(index % pitch, index / pitch);
+        words[i] = rawTexels[texelIndex(block.level, clamp(texel, ivec2(0), extent - 1))];
+        words[i] = texel == clamp(texel, ivec2(0), extent - 1) ? words[i] : uvec4(0u);
+    }
+    uint roughness = 0u;
+    [[unroll]] for (int i = 0; i < steps; ++i) {
+        int index = thread + i * threads;
+        if (index < pitch * pitch) {
+            storeShared(index, words[i]);
+            roughness |= roughnessOf(words[i], index);
+        }
+    }
+    noteRoughness(roughness);
+}
+
+// Level 6 is reduced here, from the level pass A ends with.
+void loadCoarsestBlock(Block block, int thread) {
+    for (int index = thread; index < pitch * pitch; index += threads) {
+        ivec2 texel = block.first - halo + ivec2(index % pitch, index / pitch);
+        RawTexel children[4];
+        for (int i = 0; i < 4; ++i) {
+            children[i] = rawTexel(rawLevels, 2 * texel + ivec2(i & 1, i >> 1));
+        }
+        uvec4 words = packRaw(reduceTexels(children, block.level));
+        storeShared(index, words);
+        noteRoughness(roughnessOf(words, index));
+    }
+}
+
+RawTexel texelAt(int index) {
+    return unpackRaw(uvec4(lights[index], floatBitsToUint(depths[index]), massesAndMaterials[index]));
 }
 
 // Where a texel's kernel stands: its own surface or, where it is empty, its neighbours', so that light reaches across
 // small holes.
 BlurredTexel findSurface(int level, int center) {
-    RawTexel own = unpackRaw(texels[center]);
+    RawTexel own = texelAt(center);
     BlurredTexel result = BlurredTexel(vec3(0.0), 0.0, own.depth, own.material, own.mass > 0.0, own.dropped);
     if (!result.present) {
         float mass = 0.0;
         float heaviest = 0.0;
         for (int i = 0; i < 9; ++i) {
-            RawTexel tap = unpackRaw(texels[center + i % 3 - 1 + (i / 3 - 1) * pitch]);
+            RawTexel tap = texelAt(center + i % 3 - 1 + (i / 3 - 1) * pitch);
             mass += tap.mass;
             result.depth += tap.mass * tap.depth;
             if (tap.mass > heaviest) {
@@ -108,19 +177,24 @@ struct Sums {
     float counted; // what the weights would sum to if nothing were missing
 };
 
-void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width) {
+void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width, const bool separate) {
     float difference = tap.depth - surface.depth;
     float weight = kernel * falloff(difference * difference / (bankBlurDepthVariance * width * width));
-    bool taken = tap.mass > 0.0 && givesLight(tap.material, surface.material);
+    bool taken = tap.mass > 0.0 && (!separate || exchanges(tap.material, surface.material));
     sums.counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
     weight = taken ? weight : 0.0;
-    sums.light += weight * tap.area * tap.light;
+    sums.light += weight * tap.light;
     sums.area += weight * tap.area;
     sums.mass += weight * tap.mass;
 }
 
+void divide(inout BlurredTexel texel, Sums sums) {
+    texel.mass = sums.mass / max(sums.counted, bankLeastWeight);
+    texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
+}
+
 // Blurs a texel and the one below it, which have four of five rows of taps in common.
-void blurPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
+void blurPair(int level, int center, const bool separate, out BlurredTexel upper, out BlurredTexel lower) {
     upper = findSurface(level, center);
     lower = findSurface(level, center + pitch);
     float upperWidth = texelWidth(level, upper.depth);
@@ -131,69 +205,121 @@ void blurPair(int level, int center, out BlurredTexel upper, out BlurredTexel lo
         float upperRow = binomial[y + 1];
         float lowerRow = binomial[y];
         [[unroll]] for (int x = 0; x < 5; ++x) {
-            RawTexel tap = unpackRaw(texels[center + x - halo + (y - halo) * pitch]);
-            addTap(upperSums, tap, upper, binomial[x + 1] * upperRow, upperWidth);
-            addTap(lowerSums, tap, lower, binomial[x + 1] * lowerRow, lowerWidth);
+            RawTexel tap = texelAt(center + x - halo + (y - halo) * pitch);
+            addTap(upperSums, tap, upper, binomial[x + 1] * upperRow, upperWidth, separate);
+            addTap(lowerSums, tap, lower, binomial[x + 1] * lowerRow, lowerWidth, separate);
         }
     }
-    upper.mass = upperSums.mass / max(upperSums.counted, bankLeastWeight);
-    upper.light = upperSums.light * (upper.mass / max(upperSums.area, bankLeastWeight));
-    lower.mass = lowerSums.mass / max(lowerSums.counted, bankLeastWeight);
-    lower.light = lowerSums.light * (lower.mass / max(lowerSums.area, bankLeastWeight));
+    divide(upper, upperSums);
+    divide(lower, lowerSums);
+}
+
+// Where a plain texel's kernel stands, and what scales squared depth differences from there.
+struct PlainCenter {
+    float depth;
+    float scale;
+};
+
+PlainCenter plainCenter(int level, int index) {
+    float width = texelWidth(level, depths[index]);
+    return PlainCenter(depths[index], 0.25 / (bankBlurDepthVariance * width * width));
+}
+
+// The same where every tap is full and no step is near: nothing is missing, nothing left out. `root` is the kernel's
+// fourth root, taken into the fourth power of the depth weight.
+void addPlainTap(inout vec4 sum, vec4 lightAndArea, float depth, PlainCenter center, float root) {
+    float difference = depth - center.depth;
+    float base = clamp(root - difference * difference * (root * center.scale), 0.0, 1.0);
+    base *= base;
+    sum += base * base * lightAndArea;
+}
+
+BlurredTexel plainTexel(vec4 sum, int index) {
+    return BlurredTexel(sum.rgb / sum.w, 1.0, depths[index], massesAndMaterials[index] >> 16, true, false);
+}
+
+void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
+    const float roots[5] = float[](0.5, 0.70710678, 0.78254229, 0.70710678, 0.5); // of 1, 4, 6, 4, 1 sixteenths
+    PlainCenter upperCenter = plainCenter(level, center);
+    PlainCenter lowerCenter = plainCenter(level, center + pitch);
+    vec4 upperSum = vec4(0.0);
+    vec4 lowerSum = vec4(0.0);
+    [[unroll]] for (int y = 0; y < 6; ++y) {
+        [[unroll]] for (int x = 0; x < 5; ++x) {
+            int index = center + x - halo + (y - halo) * pitch;
+            vec4 lightAndArea = vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
+            if (y < 5) {
+                addPlainTap(upperSum, lightAndArea, depths[index], upperCenter, roots[x] * roots[min(y, 4)]);
+            }
+            if (y > 0) {
+                addPlainTap(lowerSum, lightAndArea, depths[index], lowerCenter, roots[x] * roots[max(y - 1, 0)]);
+            }
+        }
+    }
+    upper = plainTexel(upperSum, center);
+    lower = plainTexel(lowerSum, center + pitch);
 }
 
 void storeBlurred(int level, ivec2 texel, BlurredTexel blurred) {
     if (all(lessThan(texel, levelExtent(level)))) {
-        blurredTexels[texelIndex(level, texel)] = blurred.present ? packBlurred(blurred) : uvec4(0u);
+        storeBlurredTexel(texelIndex(level, texel),
+                          blurred.present ? blurred : BlurredTexel(vec3(0.0), 0.0, 0.0, 0u, false, true));
     }
 }
 
-// Puts a tile on the list of the pipeline that combines it, and makes that pipeline's dispatch cover the list.
-void listTile(ivec2 tile, uint kind) {
+// Puts a tile's half on the list of the pipeline that combines it, and makes that pipeline's dispatch cover the list.
+void listRegion(ivec2 tile, uint region) {
     ivec2 tiles = tileCount();
+    if (tileEntries[tile.y * tiles.x + tile.x] == 0u) {
+        return;
+    }
+    // Where materials are separate, pixels are combined tap by tap.
+    bool isEdge = hasFlag(flagSeparateMaterials) || (rough & (region == 0u ? roughUpper : roughLower)) != 0u;
+    uint kind = isEdge ? 1u : 0u;
     uint index = atomicAdd(dispatches[kind].count, 1u);
-    tileEntries[tiles.x * tiles.y * (1 + int(kind)) + int(index)] = uint(tile.y * tiles.x + tile.x);
+    tileEntries[tiles.x * tiles.y * (1 + 2 * int(kind)) + int(index)] = 2u * uint(tile.y * tiles.x + tile.x) + region;
     atomicMax(dispatches[kind].x, min(index + 1u, bankDispatchWidth));
     atomicMax(dispatches[kind].y, index / bankDispatchWidth + 1u);
 }
 
 void main() {
     int thread = int(gl_LocalInvocationIndex);
-    Block block = findBlock(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
-    ivec2 tile = block.first / side; // of level 1
+    Block block = findBlock(int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x));
+    if (block.first.y >= levelExtent(block.level).y) { // the grid's last row is not full
+        return;
+    }
     if (thread == 0) {
-        occupiedNear = 0u;
         rough = 0u;
     }
     barrier();
-    if (block.level == 1 && thread < 9 && isOccupied(tile + ivec2(thread % 3 - 1, thread / 3 - 1))) {
-        atomicOr(occupiedNear, 1u);
+    if (block.level <= rawLevels) {
+        loadBlock(block, thread);
+    } else {
+        loadCoarsestBlock(block, thread);
     }
     barrier();
-    // No pixel will read the texels of a block that has only empty tiles around it.
-    if (block.level == 0 || (block.level == 1 && occupiedNear == 0u)) {
+    if ((rough & anything) == 0u && block.level == 1) { // no pixel will read these
         return;
     }
-    for (int i = thread; i < pitch * pitch; i += threads) {
-        texels[i] = loadTexel(block.level, block.first + ivec2(i % pitch, i / pitch) - halo);
+    if (thread < pitch * pitch / 4) {
+        int row = thread / (pitch / 2);
+        noteRoughness(roughnessBetween(block.level, 2 * ivec2(thread - row * (pitch / 2), row)));
     }
     barrier();
-    if (block.level == 1) {
-        for (int i = thread; i < pitch * pitch; i += threads) {
-            if (isRough(i)) {
-                atomicOr(rough, 1u);
-            }
-        }
-    }
     ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, 2);
+    int center = (local.y + halo) * pitch + local.x + halo;
     BlurredTexel upper;
     BlurredTexel lower;
-    blurPair(block.level, (local.y + halo) * pitch + local.x + halo, upper, lower);
+    if (hasFlag(flagSeparateMaterials)) {
+        blurPair(block.level, center, true, upper, lower);
+    } else if (rough != anything) {
+        blurPair(block.level, center, false, upper, lower);
+    } else {
+        blurPlainPair(block.level, center, upper, lower);
+    }
     storeBlurred(block.level, block.first + local, upper);
     storeBlurred(block.level, block.first + local + ivec2(0, 1), lower);
-    barrier();
-    if (thread == 0 && block.level == 1 && isOccupied(tile)) {
-        // Pixels that ask for materials are combined tap by tap.
-        listTile(tile, hasFlag(flagSeparateMaterials) ? 1u : rough);
+    if (thread < 2 && block.level == 1) {
+        listRegion(block.first / side, uint(thread));
     }
 }

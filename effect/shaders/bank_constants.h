@@ -32,4 +32,4 @@ const float bankLeastWeight = 1e-6f;
 // A tile of 32x32 px whose level 1, with two texels around, changes by less than this many texel widths in depth from
 // texel to texel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines").
 // 1.2 is a slope of 50 degrees; no tile of the twelve cases changes by more than 0.05 dB from this.
-const float bankSmoothDepth = 1.2f;
+const float bankSmoothDepth = 3.0f;

@@ -2,60 +2,86 @@
 // subsurface pixels, and copies the tiles that hold none. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
+const int threads = 256;
 const int side = 16; // texels of level 1
 
 // Level 1; each coarser level then stands at its first child's place.
 shared uvec4 texels[side * side];
 shared uint occupied;
 
-// A pixel as a texel. Not finite light is no light; not finite depth is no surface. Everything is fetched before
-// anything is asked, so that the four pixels' fetches overlap.
-RawTexel loadPixel(ivec2 local, out bool receives) {
-    ivec2 pixel = min(local, view.areaExtent - 1) + view.areaOffset;
-    uint material = materialAt(pixel);
-    float z = viewZ(pixel);
-    vec3 light = enteringLight(pixel, material);
-    receives = local == pixel - view.areaOffset && material != 0u && isValidZ(z);
-    bool gives = receives && isFinite(light);
-    return RawTexel(gives ? min(light, vec3(maxHalf)) : vec3(0.0), 1.0, gives ? 1.0 : 0.0, gives ? -z : 0.0, material,
-                    false);
+// What is fetched of a 2x2 block: everything before anything is asked, so that the fetches overlap.
+struct Fetched {
+    uint id[4];
+    float depth[4];
+    vec3 light[4];
+};
+
+ivec2 pixelOf(ivec2 first, int i) {
+    return min(first + ivec2(i & 1, i >> 1), view.areaExtent - 1) + view.areaOffset;
 }
 
-// Area of the surface relative to one that faces the camera, from the depth steps inside a 2x2 block.
-float blockArea(RawTexel pixels[4], bvec4 kept, float depth) {
+Fetched fetchPixels(ivec2 first) {
+    Fetched fetched;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = pixelOf(first, i);
+        fetched.id[i] = texelFetch(materialIdImage, pixel, 0).r;
+        fetched.depth[i] = texelFetch(depthImage, pixel, 0).r;
+        fetched.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
+    }
+    return fetched;
+}
+
+// The pixels as texels. Not finite light is no light; not finite depth is no surface, and what lies on it is dropped,
+// so that nothing near is taken for smooth.
+void decodePixels(Fetched fetched, ivec2 first, out RawTexel pixels[4], out bool receives, out bool dropped) {
+    receives = false;
+    dropped = false;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = pixelOf(first, i);
+        uint material = materialOfId(fetched.id[i]);
+        material = all(lessThan(first + ivec2(i & 1, i >> 1), view.areaExtent)) ? material : 0u;
+        float z = viewZ(pixel, fetched.depth[i]);
+        vec3 light = fetched.light[i] * albedoBefore(pixel, material);
+        bool isOnSurface = material != 0u && isValidZ(z);
+        bool gives = isOnSurface && isFinite(light);
+        pixels[i] = RawTexel(gives ? min(light, vec3(maxHalf)) : vec3(0.0), 1.0, gives ? 1.0 : 0.0, gives ? -z : 0.0,
+                             material, false);
+        receives = receives || isOnSurface;
+        dropped = dropped || (material != 0u && !isOnSurface);
+    }
+}
+
+// Depth steps from pixel to pixel inside a 2x2 block, in pixel widths.
+vec2 blockSlope(RawTexel pixels[4], bvec4 kept, float depth) {
     vec2 steps = vec2(0.0);
     vec2 pairs = vec2(0.0);
-    for (int i = 0; i < 2; ++i) {
-        if (kept[2 * i] && kept[2 * i + 1]) {
-            steps.x += pixels[2 * i + 1].depth - pixels[2 * i].depth;
-            pairs.x += 1.0;
-        }
-        if (kept[i] && kept[i + 2]) {
-            steps.y += pixels[i + 2].depth - pixels[i].depth;
-            pairs.y += 1.0;
-        }
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        bool pairX = kept[2 * i] && kept[2 * i + 1];
+        bool pairY = kept[i] && kept[i + 2];
+        steps += vec2(pairX ? pixels[2 * i + 1].depth - pixels[2 * i].depth : 0.0,
+                      pairY ? pixels[i + 2].depth - pixels[i].depth : 0.0);
+        pairs += vec2(pairX, pairY);
     }
-    vec2 slope = steps / (max(pairs, vec2(1.0)) * texelWidth(0, depth));
-    return min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
+    return steps / (max(pairs, vec2(1.0)) * texelWidth(0, depth));
 }
 
-RawTexel reducePixels(ivec2 first, out bool receives) {
-    RawTexel pixels[4];
-    receives = false;
-    for (int i = 0; i < 4; ++i) {
-        bool pixelReceives;
-        pixels[i] = loadPixel(first + ivec2(i & 1, i >> 1), pixelReceives);
-        receives = receives || pixelReceives;
-    }
-    bvec4 kept = chooseSurface(pixels, 1);
-    RawTexel texel = reduceTexels(pixels, kept);
-    if (texel.mass > 0.0) {
-        texel.area *= blockArea(pixels, kept, texel.depth);
-    }
+// A texel of level 1, and its entry of `quads`.
+RawTexel reducePixels(RawTexel pixels[4], out uvec4 quad) {
+    bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
+    RawTexel texel = mergeTexels(pixels, kept);
+    vec2 slope = blockSlope(pixels, kept, texel.depth);
+    float area = min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
+    texel.light = min(area * texel.light, vec3(maxHalf));
+    texel.area *= area;
+    vec2 beside = 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
+                             falloff(slope.y * slope.y / bankPixelDepthVariance));
+    quad = uvec4(floatBitsToUint(texel.depth), packHalf2x16(beside), pixels[0].material | pixels[1].material << 16,
+                 pixels[2].material | pixels[3].material << 16);
     return texel;
 }
 
@@ -71,9 +97,28 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     for (int i = 0; i < 4; ++i) {
         children[i] = unpackRaw(texels[first + ((i & 1) + (i >> 1) * side) * spacing]);
     }
-    uvec4 packed = packRaw(reduceTexels(children, chooseSurface(children, level)));
+    uvec4 packed = packRaw(reduceTexels(children, level));
     texels[first] = packed;
     rawTexels[texelIndex(level, tile * width + texel)] = packed;
+}
+
+// The levels above the first of a tile without subsurface pixels.
+void emptyLevels(ivec2 tile, int thread) {
+    for (int level = 2; level <= rawLevels; ++level) {
+        int width = tileSize >> level;
+        if (thread < width * width) {
+            rawTexels[texelIndex(level, tile * width + ivec2(thread % width, thread / width))] = uvec4(0u);
+        }
+    }
+}
+
+void copyTile(ivec2 tile, int thread) {
+    for (int i = thread; i < tileSize * tileSize; i += threads) {
+        ivec2 local = tile * tileSize + ivec2(i % tileSize, i / tileSize);
+        if (all(lessThan(local, view.areaExtent))) {
+            writeUnscattered(local + view.areaOffset);
+        }
+    }
 }
 
 void main() {
@@ -85,31 +130,37 @@ void main() {
         occupied = 0u;
     }
     barrier();
+    Fetched fetched = fetchPixels(firstPixel);
+    RawTexel pixels[4];
     bool receives;
-    uvec4 packed = packRaw(reducePixels(firstPixel, receives));
-    texels[thread] = packed;
-    rawTexels[texelIndex(1, tile * side + texel)] = packed;
+    bool dropped;
+    decodePixels(fetched, firstPixel, pixels, receives, dropped);
+    uvec4 quad;
+    RawTexel reduced = reducePixels(pixels, quad);
+    reduced.dropped = reduced.dropped || dropped;
+    uvec4 packed = packRaw(reduced);
     if (receives) {
         atomicOr(occupied, 1u);
     }
+    texels[thread] = packed;
+    int index = texelIndex(1, tile * side + texel);
+    rawTexels[index] = packed;
+    quads[index] = quad;
     barrier();
-    for (int level = 2; level <= rawLevels; ++level) {
-        reduceLevel(level, tile, thread);
-        barrier();
+    if (occupied != 0u) {
+        for (int level = 2; level <= rawLevels; ++level) {
+            reduceLevel(level, tile, thread);
+            barrier();
+        }
+    } else {
+        emptyLevels(tile, thread);
+        copyTile(tile, thread);
     }
     if (thread == 0) {
         tileEntries[tile.y * tileCount().x + tile.x] = occupied;
         if (tile == ivec2(0)) {
-            dispatches[0] = BankDispatch(0u, 1u, 2u, 0u);
-            dispatches[1] = BankDispatch(0u, 1u, 2u, 0u);
-        }
-    }
-    if (occupied == 0u) {
-        for (int i = 0; i < 4; ++i) {
-            ivec2 local = firstPixel + ivec2(i & 1, i >> 1);
-            if (all(lessThan(local, view.areaExtent))) {
-                writeUnscattered(local + view.areaOffset);
-            }
+            dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
+            dispatches[1] = BankDispatch(0u, 1u, 1u, 0u);
         }
     }
 }

@@ -21,10 +21,13 @@ layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredI
 #define view parameters.view
 #include "view.glsl"
 
-// The slot of the pixel's material, 0 where there is no subsurface scattering.
-uint materialAt(ivec2 pixel) {
-    uint id = texelFetch(materialIdImage, pixel, 0).r;
+// The slot of a pixel's material, 0 where there is no subsurface scattering.
+uint materialOfId(uint id) {
     return slots[id & (materialIdCount - 1u)];
+}
+
+uint materialAt(ivec2 pixel) {
+    return materialOfId(texelFetch(materialIdImage, pixel, 0).r);
 }
 
 // Whether light that enters material `from` may leave material `to`: one material, or a common exchange group.
@@ -50,10 +53,14 @@ void writeUnscattered(ivec2 pixel) {
     imageStore(scatteredImage, pixel, vec4(light * albedo, 1.0));
 }
 
+// The pixel's factor on how much of its light scatters, [0, 1].
+float strengthAt(ivec2 pixel) {
+    return hasFlag(flagStrength) ? clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0) : 1.0;
+}
+
 // How much of a pixel's light scatters, [0, 1].
 float strengthAt(ivec2 pixel, uint material) {
-    float strength = materials[material].strength;
-    return hasFlag(flagStrength) ? strength * clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0) : strength;
+    return materials[material].strength * strengthAt(pixel);
 }
 
 // Writes a pixel of a material, given its light before the albedo that is applied after scattering.

@@ -16,8 +16,14 @@ struct vec2 {
 struct ivec2 {
     std::int32_t x, y;
 };
+struct ivec4 {
+    std::int32_t x, y, z, w;
+};
 struct vec4 {
     float x, y, z, w;
+};
+struct uvec2 {
+    uint x, y;
 };
 struct uvec4 {
     uint x, y, z, w;
@@ -56,7 +62,9 @@ NACRE_CONSTANT intermediatePixels = 1;
 NACRE_CONSTANT intermediateNoShadowMap = 2;
 NACRE_CONSTANT intermediateBankRaw = 3;
 NACRE_CONSTANT intermediateBankBlurred = 4;
-NACRE_CONSTANT intermediateBankTiles = 5;
+NACRE_CONSTANT intermediateBankSurfaces = 5;
+NACRE_CONSTANT intermediateBankQuads = 6;
+NACRE_CONSTANT intermediateBankTiles = 7;
 
 NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
 
@@ -98,6 +106,8 @@ struct ScatterParameters {
     uint thesisRadius; // taps on either side
     float thesisStrength;
     float unused0, unused1, unused2;
+    // Of `bank`, per level of the pyramid from 1 on: its first texel, width, height, and first block of the blur.
+    ivec4 bankLevels[7];
 };
 
 struct TransmitParameters {
@@ -145,7 +155,7 @@ NACRE_CONSTANT bankTableWords = bankTableHead + 113 * bankBinWords;
 NACRE_CONSTANT bankDispatchWidth = 32768;
 struct BankDispatch {
     uint x, y, z; // VkDispatchIndirectCommand
-    uint count;   // tiles on the list
+    uint count;   // regions on the list
 };
 
 // Tables of `burley`, entry i: R in 1/mm² and share of the light within r = radius·share², share = i / (entries - 1).
@@ -195,7 +205,8 @@ struct LightParameters {
 static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
               offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
               sizeof(ViewParameters) == 240);
-static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && sizeof(ScatterParameters) == 272);
+static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(ScatterParameters, bankLevels) == 272 &&
+              sizeof(ScatterParameters) == 272 + 7 * sizeof(ivec4));
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
 static_assert(offsetof(MaterialParameters, exchangeGroups) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);

@@ -27,14 +27,17 @@ vec2 originAt(ivec2 pixel) {
 
 // View z in mm (negative in front of a perspective camera). Hardware depth: clip z = depth · clip w, both linear in z
 // along the pixel's ray.
-float viewZ(ivec2 pixel) {
-    float depth = texelFetch(depthImage, pixel, 0).r;
+float viewZ(ivec2 pixel, float depth) {
     if (!hasFlag(flagHardwareDepth)) {
         return -depth * view.mmPerUnit;
     }
     vec4 row = view.depthRow;
     float slope = depth * view.clipW.x - dot(row.xyz, vec3(rayAt(pixel), 1.0));
     return (dot(row.xy, originAt(pixel)) + row.w - depth * view.clipW.y) / slope;
+}
+
+float viewZ(ivec2 pixel) {
+    return viewZ(pixel, texelFetch(depthImage, pixel, 0).r);
 }
 
 float clipW(float z) {

@@ -1,5 +1,5 @@
 // effect_timing: GPU times of the scatter techniques on synthetic scenes, beside a copy pass, as a table and CSV.
-//   effect_timing [--suite targets|footprint|layers|materials|all] [--size WxH] [--csv FILE] [--rounds N]
+//   effect_timing [--suite scenes|targets|footprint|layers|materials|all] [--size WxH] [--csv FILE] [--rounds N]
 // Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 19 steady repeats.
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/gpu/timing/copy_pass.hpp"
@@ -187,6 +187,16 @@ void printSlopes(const char* what, std::span<const Row> rows, double (*parameter
     }
 }
 
+// `bank` alone, on one of each: a minute's answer to a change of its shaders.
+void runScenes(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
+    const std::vector<NacreTechnique> bank{NACRE_TECHNIQUE_BANK};
+    measureSubject(gpu, {.extent = options.extent}, bank, options, rows);
+    measureSubject(gpu, {.extent = options.extent, .footprint = 60, .coverage = 0.25}, bank, options, rows);
+    for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
+        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, bank, options, rows);
+    }
+}
+
 void runTargets(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
     const std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
     const std::vector<NacreTechnique> all = realTimeTechniques();
@@ -291,7 +301,11 @@ int main(int count, char** arguments) {
         std::printf("%s, driver %u\n", gpu.properties.deviceName, gpu.properties.driverVersion);
         std::vector<Row> rows;
         const std::pair<const char*, void (*)(Gpu&, const Options&, std::vector<Row>&)> suites[] = {
-            {"targets", runTargets}, {"footprint", runFootprints}, {"layers", runLayers}, {"materials", runMaterials}};
+            {"scenes", runScenes},
+            {"targets", runTargets},
+            {"footprint", runFootprints},
+            {"layers", runLayers},
+            {"materials", runMaterials}};
         bool known = false;
         for (const auto& [name, run] : suites) {
             if (options.suite == "all" || options.suite == name) {
@@ -301,7 +315,7 @@ int main(int count, char** arguments) {
         }
         if (!known) {
             throw std::runtime_error("--suite is '" + options.suite +
-                                     "', must be targets, footprint, layers, materials or all");
+                                     "', must be scenes, targets, footprint, layers, materials or all");
         }
         writeCsv(options, rows);
         return 0;
