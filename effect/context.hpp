@@ -59,9 +59,12 @@ struct Context {
     std::uint32_t maxLights = 0;
     std::array<bool, techniqueCount> enabled{};
 
+    Owned<VkSampler> nearestSampler; ///< immutable in the scatter layout
     Programs scatter;
     Programs transmit;
     std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass, then materialPasses
+    /// As pipelines, for frames with separate materials; null where the pass does not ask.
+    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> separatePipelines;
     std::vector<Owned<VkPipeline>> bakedThesis; ///< the thesis's materialPasses; empty = not baked
     std::uint32_t bakedThesisRadius = 0;
     NacreMemory givenMemory{};                ///< the caller's, for the intermediates

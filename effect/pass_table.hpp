@@ -55,6 +55,9 @@ struct Pass {
     /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this buffer; Count = not indirect.
     Intermediate indirect = Intermediate::Count;
     VkDeviceSize indirectOffset = 0;
+    /// Whether there is a second pipeline, with the constant separateMaterials true, for frames where some materials do
+    /// not exchange light with some others: asking costs nothing where no one does.
+    bool asksMaterials = false;
 };
 
 /// Sizes of the bank's buffers (scatter_bank.cpp).

@@ -20,6 +20,7 @@ constexpr Binding scatterBindings[] = {
     {bindingIrradiance, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
     {bindingAlbedo, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
     {bindingScattered, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
+    {bindingNearestSampler, VK_DESCRIPTOR_TYPE_SAMPLER},
 };
 constexpr Binding transmitBindings[] = {
     {bindingThickness, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
@@ -33,6 +34,14 @@ VkDescriptorType descriptorType(const IntermediateInfo& info) {
     return info.format == VK_FORMAT_UNDEFINED ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
+Owned<VkSampler> createNearestSampler(const Device& device) {
+    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(device.vk.CreateSampler(device.handle, &info, device.allocator, &sampler), "vkCreateSampler");
+    return {device, sampler, device.vk.DestroySampler};
+}
+
 void createLayout(Context& context, Programs& programs, std::span<const Binding> own) {
     std::vector<Binding> bindings(std::begin(commonBindings), std::end(commonBindings));
     bindings.insert(bindings.end(), own.begin(), own.end());
@@ -42,8 +51,10 @@ void createLayout(Context& context, Programs& programs, std::span<const Binding>
         }
     }
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
+    const VkSampler sampler = context.nearestSampler.get();
     for (const Binding& binding : bindings) {
-        layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT,
+                                  binding.type == VK_DESCRIPTOR_TYPE_SAMPLER ? &sampler : nullptr});
     }
     const Device& device = context.device;
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
@@ -91,7 +102,12 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
     return {device, pipeline, device.vk.DestroyPipeline};
 }
 
+constexpr VkBool32 separateMaterials = VK_TRUE;
+constexpr VkSpecializationMapEntry separateEntry{0, 0, sizeof(separateMaterials)};
+constexpr VkSpecializationInfo separateConstants{1, &separateEntry, sizeof(separateMaterials), &separateMaterials};
+
 void createPrograms(Context& context, VkPipelineCache cache) {
+    context.nearestSampler = createNearestSampler(context.device);
     createLayout(context, context.scatter, scatterBindings);
     createLayout(context, context.transmit, transmitBindings);
     for (std::size_t i = 0; i < techniqueCount; ++i) {
@@ -99,9 +115,13 @@ void createPrograms(Context& context, VkPipelineCache cache) {
             continue;
         }
         const Programs& programs = i == transmitIndex ? context.transmit : context.scatter;
+        const VkPipelineLayout layout = programs.layout.get();
         for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
             for (const Pass& pass : part) {
-                context.pipelines[i].push_back(createPipeline(context.device, programs.layout.get(), pass, cache));
+                context.pipelines[i].push_back(createPipeline(context.device, layout, pass, cache));
+                context.separatePipelines[i].push_back(
+                    pass.asksMaterials ? createPipeline(context.device, layout, pass, cache, &separateConstants)
+                                       : Owned<VkPipeline>());
             }
         }
     }

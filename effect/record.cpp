@@ -172,9 +172,11 @@ void recordPasses(const PassRecording& recording) {
         written |= pass.writes;
     };
     const std::span pipelines(recording.context.pipelines[recording.technique]);
+    const std::span separatePipelines(recording.context.separatePipelines[recording.technique]);
     const auto passCount = static_cast<std::uint32_t>(technique.passes.size());
     for (std::uint32_t i = 0; i < passCount; ++i) {
-        record(technique.passes[i], pipelines[i]);
+        const bool separate = recording.separate && technique.passes[i].asksMaterials;
+        record(technique.passes[i], separate ? separatePipelines[i] : pipelines[i]);
         timestamp(recording, i + 1);
     }
     if (!technique.materialPasses.empty()) {

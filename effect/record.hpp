@@ -44,6 +44,7 @@ struct PassRecording {
     VkExtent2D area;
     NacreTimestamps timestamps;
     std::uint32_t materialCount = 0; ///< the technique's materialPasses run for the slots 1 … materialCount
+    bool separate = false;           ///< some materials do not exchange light with some others
     bool baked = false;              ///< those with the kernel of nacreBakeThesisKernel
 };
 

@@ -55,10 +55,10 @@ VkExtent3D blurGrid(VkExtent2D area) {
     return {std::min<std::uint32_t>(count, bankDispatchWidth), (count + bankDispatchWidth - 1) / bankDispatchWidth, 1};
 }
 
-void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
+void buildTable(const Material& material, const Profile& profile, std::span<std::byte> bytes) {
     const BankTable table(profile);
-    const float offset = table.binOffset();
-    std::memcpy(bytes.data(), &offset, sizeof(offset));
+    const float head[] = {table.binOffset(), static_cast<float>(material.strength)};
+    std::memcpy(bytes.data(), head, sizeof(head));
     std::memcpy(bytes.data() + sizeof(std::uint32_t) * bankTableHead, table.halves().data(),
                 table.halves().size_bytes());
 }
@@ -71,22 +71,25 @@ constexpr Pass passes[] = {
     {.name = "nacre bank reduce",
      .spirv = bank_reduce_spv,
      .writes = bit(Intermediate::BankRaw) | quads | tiles,
-     .grid = nacre::effect::tiles<tileSize, tileSize>},
+     .grid = nacre::effect::tiles<tileSize, tileSize>,
+     .asksMaterials = true},
     {.name = "nacre bank blur",
      .spirv = bank_blur_spv,
      .reads = bit(Intermediate::BankRaw),
      .writes = blurred | tiles,
-     .grid = blurGrid},
+     .grid = blurGrid,
+     .asksMaterials = true},
+    {.name = "nacre bank combine edge",
+     .spirv = bank_combine_edge_spv,
+     .reads = blurred | quads | tiles,
+     .indirect = Intermediate::BankTiles,
+     .indirectOffset = sizeof(BankDispatch),
+     .asksMaterials = true},
     {.name = "nacre bank combine smooth",
      .spirv = bank_combine_smooth_spv,
      .reads = blurred | quads | tiles,
      .indirect = Intermediate::BankTiles,
      .indirectOffset = 0},
-    {.name = "nacre bank combine edge",
-     .spirv = bank_combine_edge_spv,
-     .reads = blurred | tiles,
-     .indirect = Intermediate::BankTiles,
-     .indirectOffset = sizeof(BankDispatch)},
 };
 
 } // namespace

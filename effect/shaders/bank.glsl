@@ -2,6 +2,8 @@
 #include "scatter.glsl"
 #include "bank_constants.h"
 
+layout(constant_id = 0) const bool separateMaterials = false; // some do not exchange light with some others
+
 layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) buffer BankRaw {
     uvec4 rawTexels[]; // levels 1 … 5
 };
@@ -109,9 +111,9 @@ float countedWeight(float kernel, float weight, float depthDifference, float wid
     return weight + clamp(abs(depthDifference) / width - bankMissingDepth, 0.0, 1.0) * kernel;
 }
 
-// Whether a texel or pixel gives light to a material. Materials are asked only in frames where some do not exchange.
+// Whether a texel or pixel gives light to a material.
 bool givesLight(uint from, uint to) {
-    return !hasFlag(flagSeparateMaterials) || exchanges(from, to);
+    return !separateMaterials || exchanges(from, to);
 }
 
 // Whether four texels all are on one surface, nearest to farthest depth, so that all of them are kept.
@@ -121,7 +123,7 @@ bool isOneSurface(RawTexel texels[4], int level) {
     float farthest = max(max(depths.x, depths.y), max(depths.z, depths.w));
     float leastMass = min(min(texels[0].mass, texels[1].mass), min(texels[2].mass, texels[3].mass));
     return leastMass > 0.0 && farthest - nearest <= bankSurfaceSeparation * texelWidth(level, nearest) &&
-           !hasFlag(flagSeparateMaterials);
+           !separateMaterials;
 }
 
 // Which of four texels the next level's texel keeps: those of one surface, nearest or farthest, whichever has more
@@ -148,7 +150,7 @@ bvec4 chooseSurface(RawTexel texels[4], int level) {
         }
         kept = balance >= 0.0 ? front : back;
     }
-    if (hasFlag(flagSeparateMaterials)) {
+    if (separateMaterials) {
         float heaviest = 0.0;
         uint material = 0u;
         for (int i = 0; i < 4; ++i) {

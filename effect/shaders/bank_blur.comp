@@ -177,10 +177,10 @@ struct Sums {
     float counted; // what the weights would sum to if nothing were missing
 };
 
-void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width, const bool separate) {
+void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width) {
     float difference = tap.depth - surface.depth;
     float weight = kernel * falloff(difference * difference / (bankBlurDepthVariance * width * width));
-    bool taken = tap.mass > 0.0 && (!separate || exchanges(tap.material, surface.material));
+    bool taken = tap.mass > 0.0 && givesLight(tap.material, surface.material);
     sums.counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
     weight = taken ? weight : 0.0;
     sums.light += weight * tap.light;
@@ -194,7 +194,7 @@ void divide(inout BlurredTexel texel, Sums sums) {
 }
 
 // Blurs a texel and the one below it, which have four of five rows of taps in common.
-void blurPair(int level, int center, const bool separate, out BlurredTexel upper, out BlurredTexel lower) {
+void blurPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
     upper = findSurface(level, center);
     lower = findSurface(level, center + pitch);
     float upperWidth = texelWidth(level, upper.depth);
@@ -206,8 +206,8 @@ void blurPair(int level, int center, const bool separate, out BlurredTexel upper
         float lowerRow = binomial[y];
         [[unroll]] for (int x = 0; x < 5; ++x) {
             RawTexel tap = texelAt(center + x - halo + (y - halo) * pitch);
-            addTap(upperSums, tap, upper, binomial[x + 1] * upperRow, upperWidth, separate);
-            addTap(lowerSums, tap, lower, binomial[x + 1] * lowerRow, lowerWidth, separate);
+            addTap(upperSums, tap, upper, binomial[x + 1] * upperRow, upperWidth);
+            addTap(lowerSums, tap, lower, binomial[x + 1] * lowerRow, lowerWidth);
         }
     }
     divide(upper, upperSums);
@@ -274,7 +274,7 @@ void listRegion(ivec2 tile, uint region) {
         return;
     }
     // Where materials are separate, pixels are combined tap by tap.
-    bool isEdge = hasFlag(flagSeparateMaterials) || (rough & (region == 0u ? roughUpper : roughLower)) != 0u;
+    bool isEdge = separateMaterials || (rough & (region == 0u ? roughUpper : roughLower)) != 0u;
     uint kind = isEdge ? 1u : 0u;
     uint index = atomicAdd(dispatches[kind].count, 1u);
     tileEntries[tiles.x * tiles.y * (1 + 2 * int(kind)) + int(index)] = 2u * uint(tile.y * tiles.x + tile.x) + region;
@@ -310,10 +310,8 @@ void main() {
     int center = (local.y + halo) * pitch + local.x + halo;
     BlurredTexel upper;
     BlurredTexel lower;
-    if (hasFlag(flagSeparateMaterials)) {
-        blurPair(block.level, center, true, upper, lower);
-    } else if (rough != anything) {
-        blurPair(block.level, center, false, upper, lower);
+    if (separateMaterials || rough != anything) {
+        blurPair(block.level, center, upper, lower);
     } else {
         blurPlainPair(block.level, center, upper, lower);
     }

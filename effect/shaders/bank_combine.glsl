@@ -1,10 +1,11 @@
 // What the two pipelines of pass C of `bank` share: loading a region, the material's mixture, storing the result.
-// 32x16 px a workgroup, two workgroups a tile, a 2x2 quad a thread. docs/scatter.md.
+// 32x16 px a workgroup, two workgroups a tile, a 2x2 quad a thread. docs/scatter.md. Needs the constant isEdge: whether
+// depths of pixels and surfaces of texels are loaded, too.
 #include "bank.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
-    uvec4 bankTables[]; // bankTableWords / 4 a material: the bin offset, unused, then three a bin: 24 halves
+    uvec4 bankTables[]; // bankTableWords / 4 a material: its head, then three a bin: 24 halves
 };
 
 const int threads = 128;
@@ -19,15 +20,30 @@ const int levelStart[bankLevels + 2] = int[](0, 0, 180, 240, 264, 276, 285, 294)
 const int coarseCount = levelStart[bankLevels + 1] - fineCount;
 const int levelTexelCount = levelStart[bankLevels + 1];
 
+const int pairPitch = regionSize.x / 2 + 1;
+const int pairCount = pairPitch * (regionSize.y + 2);
+const int ringCount = 2 * (regionSize.x + 2 + regionSize.y);
+const int fineRingCount = 2 * (finePitch + fineSize.y);
+
+// The region's pixels with one around: light, and 1 where a pixel gives light; depth, 0 where there is none. Even
+// columns, then odd ones, so that neighbouring quads read neighbouring places.
+shared uvec2 pixelLights[2 * pairCount];
+shared float pixelDepths[isEdge ? 2 * pairCount : 1];
+shared uint pixelMaterials[isEdge && separateMaterials ? 2 * pairCount : 1];
 shared uvec2 levelLights[levelTexelCount]; // as blurredLights
+shared uvec2 fineSurfaces[isEdge ? fineCount : 1]; // as blurredSurfaces
+shared uvec2 coarseSurfaces[coarseCount];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
 // Numerator and denominator of a pixel's result, per channel.
 struct Sum {
-    vec3 light;
-    vec3 mass;
+    vec2 light;    // red and green
+    vec2 blue;     // light and mass
+    vec2 mass;     // of red and green
 };
+
+const Sum noSum = Sum(vec2(0.0), vec2(0.0), vec2(0.0));
 
 // The region that this workgroup combines, in px of the render area; false where there is none.
 bool findRegion(int kind, out ivec2 region) {
@@ -81,16 +97,118 @@ int fineIndex(ivec2 texel) {
     return (texel.y + 1) * finePitch + texel.x + 1;
 }
 
+// A pixel's place in shared memory, counted from the one up and left of the region's first.
+int pixelPlace(ivec2 pixel) {
+    return (pixel.x & 1) * pairCount + pixel.y * pairPitch + (pixel.x >> 1);
+}
+
+// One of the materials of a quad, whose pixel is at an even or odd place in x and y.
+uint quadMaterial(uvec4 quad, ivec2 local) {
+    uint words = (local.y & 1) == 0 ? quad.z : quad.w;
+    return (local.x & 1) == 0 ? words & 0xffffu : words >> 16;
+}
+
+struct Fetched {
+    vec3 light;
+    float z;
+};
+
+Fetched fetchPixel(ivec2 local) {
+    ivec2 pixel = local + view.areaOffset;
+    return Fetched(texelFetch(irradianceImage, pixel, 0).rgb, isEdge ? viewZ(pixel) : 0.0);
+}
+
+void storePixel(ivec2 pixel, Fetched fetched, uint material) {
+    bool receives = material != 0u && (!isEdge || isValidZ(fetched.z));
+    bool gives = receives && all(lessThan(abs(fetched.light), vec3(1e38)));
+    vec3 light = min(fetched.light, vec3(maxHalf));
+    int place = pixelPlace(pixel);
+    uvec2 words = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 1.0)));
+    pixelLights[place] = gives ? words : uvec2(0u);
+    if (isEdge) {
+        pixelDepths[place] = receives ? -fetched.z : 0.0;
+    }
+    if (isEdge && separateMaterials) {
+        pixelMaterials[place] = material;
+    }
+}
+
+void storeLevelTexel(int index, int level, uvec2 light) {
+    levelLights[index] = light;
+    if ((light.y & signBit) != 0u) {
+        atomicOr(roughLevels, 1u << level);
+    }
+}
+
+// Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
+uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
+    ivec2 last = view.areaExtent - 1;
+    ivec2 fineTexel = (region >> 1) + texel;
+    int fine = texelIndex(1, fineTexel);
+    uvec4 quad = quads[fine];
+    uvec2 fineLight = blurredLights[fine];
+    uvec2 fineSurface = isEdge ? blurredSurfaces[fine] : uvec2(0u);
+    ivec2 near = min(2 * fineTexel, last);
+    ivec2 far = min(2 * fineTexel + 1, last);
+    Fetched own[4] = Fetched[](fetchPixel(near), fetchPixel(ivec2(far.x, near.y)), fetchPixel(ivec2(near.x, far.y)),
+                               fetchPixel(far));
+    int ringThread = threads - 1 - thread;
+    ivec2 fineRing = ringPosition(min(ringThread, fineRingCount - 1), fineSize);
+    int ringIndex = globalIndex(1, (region >> 1) + fineRing);
+    uvec2 ringLight = blurredLights[ringIndex];
+    uvec2 ringSurface = isEdge ? blurredSurfaces[ringIndex] : uvec2(0u);
+    int level;
+    int coarse = coarseIndex(min(thread, coarseCount - 1), region, level);
+    uvec2 coarseLight = blurredLights[coarse];
+    uvec2 coarseSurface = blurredSurfaces[coarse];
+    ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
+    ivec2 ringPixel = clamp(region + ring, ivec2(0), last);
+    uvec4 ringQuad = quads[texelIndex(1, ringPixel >> 1)];
+    Fetched ringFetched = fetchPixel(ringPixel);
+    uint ringMaterial = ringPixel == region + ring ? quadMaterial(ringQuad, ringPixel) : 0u;
+    if (hasFlag(flagAlbedo)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            ivec2 offset = ivec2(i & 1, i >> 1);
+            own[i].light *= albedoBefore(min(near + offset, last) + view.areaOffset, quadMaterial(quad, offset));
+        }
+        ringFetched.light *= albedoBefore(ringPixel + view.areaOffset, ringMaterial);
+    }
+
+    storeLevelTexel(fineIndex(texel), 1, fineLight);
+    if (ringThread < fineRingCount) {
+        storeLevelTexel(fineIndex(fineRing), 1, ringLight);
+    }
+    if (thread < coarseCount) {
+        storeLevelTexel(fineCount + thread, level, coarseLight);
+        coarseSurfaces[thread] = coarseSurface;
+    }
+    if (isEdge) {
+        fineSurfaces[fineIndex(texel)] = fineSurface;
+        if (ringThread < fineRingCount) {
+            fineSurfaces[fineIndex(fineRing)] = ringSurface;
+        }
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        storePixel(2 * texel + 1 + offset, own[i], quadMaterial(quad, offset));
+    }
+    if (thread < ringCount) {
+        storePixel(ring + 1, ringFetched, ringMaterial);
+    }
+    return quad;
+}
+
 // The light of a material in the table's bins around a scale, and how far it is towards the second.
 struct Mixture {
     uvec4 bins[6];
     float fraction;
+    float strength;
 };
 
 Mixture findMixture(uint material, float depth) {
     uint first = material * (bankTableWords / 4u);
-    float position =
-        uintBitsToFloat(bankTables[first].x) - float(bankBinsPerOctave) * log2(texelWidth(0, depth));
+    vec2 head = uintBitsToFloat(bankTables[first].xy);
+    float position = head.x - float(bankBinsPerOctave) * log2(texelWidth(0, depth));
     position = clamp(position, 0.0, float(bankBinCount - 1));
     uint bin = min(uint(position), uint(bankBinCount - 2));
     first += bankTableHead / 4u + bin * (bankBinWords / 4u);
@@ -99,6 +217,7 @@ Mixture findMixture(uint material, float depth) {
         mixture.bins[i] = bankTables[first + i];
     }
     mixture.fraction = position - float(bin);
+    mixture.strength = head.y;
     return mixture;
 }
 
@@ -119,8 +238,15 @@ vec4 unpackLight(uvec2 words) {
 }
 
 void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
-    sum.light += weight * lightAndMass.rgb;
-    sum.mass += weight * lightAndMass.a;
+    sum.light += weight.rg * lightAndMass.rg;
+    sum.blue += weight.b * lightAndMass.ba;
+    sum.mass += weight.rg * lightAndMass.a;
+}
+
+vec3 quotient(Sum sum) {
+    vec3 light = vec3(sum.light, sum.blue.x);
+    vec3 mass = vec3(sum.mass, sum.blue.y);
+    return light / max(mass, vec3(1e-20));
 }
 
 // Where a quad lies between four texels of a level.
@@ -140,15 +266,17 @@ Corner levelCorner(int level, ivec2 region, ivec2 local) {
 void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
     int below = corner.index + levelPitch[level].x;
     float step = 1.0 / float(1 << level);
+    vec2 fraction = corner.fraction;
     vec4 upperLeft = unpackLight(levelLights[corner.index]);
     vec4 lowerLeft = unpackLight(levelLights[below]);
     vec4 upperSlope = unpackLight(levelLights[corner.index + 1]) - upperLeft;
     vec4 lowerSlope = unpackLight(levelLights[below + 1]) - lowerLeft;
     [[unroll]] for (int x = 0; x < 2; ++x) {
-        vec4 upper = upperLeft + (corner.fraction.x + float(x) * step) * upperSlope;
-        vec4 slope = lowerLeft + (corner.fraction.x + float(x) * step) * lowerSlope - upper;
-        add(sums[x], weight, upper + corner.fraction.y * slope);
-        add(sums[x + 2], weight, upper + (corner.fraction.y + step) * slope);
+        vec4 upper = upperLeft + fraction.x * upperSlope;
+        vec4 slope = lowerLeft + fraction.x * lowerSlope - upper;
+        add(sums[x], weight, upper + fraction.y * slope);
+        add(sums[x + 2], weight, upper + (fraction.y + step) * slope);
+        fraction.x += step;
     }
 }
 
@@ -158,18 +286,19 @@ struct Tap {
     float total;
 };
 
-Tap weightedTap(uvec2 light, uvec2 surface, float depth, float scale, bool taken) {
+Tap weightedTap(uvec2 light, uvec2 surface, float depth, float scale, uint material) {
     float difference = uintBitsToFloat(surface.x) - depth;
-    float weight = taken && surface.y >= presentBit ? falloff(difference * difference * scale) : 0.0;
+    bool taken = surface.y >= presentBit && givesLight(surface.y & 0xffffu, material);
+    float weight = taken ? falloff(difference * difference * scale) : 0.0;
     return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight);
 }
 
-void addTaps(inout Sum sum, vec3 weight, Tap upperLeft, Tap upperRight, Tap lowerLeft, Tap lowerRight, vec2 fraction) {
-    vec4 light = mix(mix(upperLeft.light, upperRight.light, fraction.x),
-                     mix(lowerLeft.light, lowerRight.light, fraction.x), fraction.y);
-    float total = mix(mix(upperLeft.total, upperRight.total, fraction.x),
-                      mix(lowerLeft.total, lowerRight.total, fraction.x), fraction.y);
-    add(sum, weight, light * (1.0 / max(total, bankLeastWeight)));
+Tap mixTaps(Tap a, Tap b, float fraction) {
+    return Tap(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction));
+}
+
+void addTap(inout Sum sum, vec3 weight, Tap tap) {
+    add(sum, weight, tap.light * (1.0 / max(tap.total, bankLeastWeight)));
 }
 
 // 1 / (bankLevelDepthVariance · t²)
@@ -178,25 +307,77 @@ float levelScale(int level, float depth) {
     return 1.0 / (bankLevelDepthVariance * width * width);
 }
 
-// Writes a quad: what leaves pixels of a material, the rest as it is.
-void storeQuad(ivec2 quad, uint quadMaterials[4], vec3 leaving[4]) {
-    bool isPlain = !hasFlag(flagAlbedo) && all(lessThan(quad + 1, view.areaExtent)) &&
-                   min(min(quadMaterials[0], quadMaterials[1]), min(quadMaterials[2], quadMaterials[3])) != 0u;
-    ivec2 first = quad + view.areaOffset;
-    if (isPlain) {
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            imageStore(scatteredImage, first + ivec2(i & 1, i >> 1), vec4(leaving[i], 1.0));
+// Adds a level with depth weights, which the quad's pixels share.
+void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth, uint material) {
+    float scale = levelScale(level, depth);
+    Tap taps[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int index = corner.index + (i & 1) + (i >> 1) * levelPitch[level].x;
+        taps[i] = weightedTap(levelLights[index], coarseSurfaces[index - fineCount], depth, scale, material);
+    }
+    vec2 fraction = corner.fraction;
+    float step = 1.0 / float(1 << level);
+    [[unroll]] for (int x = 0; x < 2; ++x) {
+        Tap upper = mixTaps(taps[0], taps[1], fraction.x);
+        Tap lower = mixTaps(taps[2], taps[3], fraction.x);
+        addTap(sums[x], weight, mixTaps(upper, lower, fraction.y));
+        addTap(sums[x + 2], weight, mixTaps(upper, lower, fraction.y + step));
+        fraction.x += step;
+    }
+}
+
+// The levels from 2 on: the quad's pixels lie between the same four texels.
+void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, uint material) {
+    [[unroll]] for (int level = 2; level <= bankLevels; ++level) {
+        vec3 weight = kernelWeight(mixture, level + 1);
+        if (weight != vec3(0.0)) {
+            Corner corner = levelCorner(level, region, quad);
+            if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
+                addPlainLevel(sums, weight, level, corner);
+            } else {
+                addWeightedLevel(sums, weight, level, corner, depth, material);
+            }
         }
-        return;
+    }
+}
+
+// Writes the pixels of a quad that share a material. `own` is their light, with which what is not scattered leaves.
+void storeGroup(ivec2 quad, bvec4 members, uint material, float strength, vec4 own[4], Sum sums[4]) {
+    ivec2 first = quad + view.areaOffset;
+    vec4 strengths = vec4(strength);
+    if (hasFlag(flagStrength)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            strengths[i] *= members[i] ? strengthAt(first + ivec2(i & 1, i >> 1)) : 1.0;
+        }
+    }
+    vec3 leaving[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        float pixelStrength = own[i].w > 0.0 ? strengths[i] : 1.0;
+        leaving[i] = mix(own[i].rgb, quotient(sums[i]), pixelStrength);
+    }
+    if (hasFlag(flagAlbedo)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            leaving[i] *= members[i] ? albedoAfter(first + ivec2(i & 1, i >> 1), material) : vec3(1.0);
+        }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 offset = ivec2(i & 1, i >> 1);
-        if (all(lessThan(quad + offset, view.areaExtent))) {
-            if (quadMaterials[i] == 0u) {
-                writeUnscattered(first + offset);
-            } else {
-                writeLight(first + offset, quadMaterials[i], leaving[i]);
-            }
+        if (members[i]) {
+            imageStore(scatteredImage, first + ivec2(i & 1, i >> 1), vec4(leaving[i], 1.0));
+        }
+    }
+}
+
+// Writes the pixels of a quad that have no material.
+void storeRest(ivec2 quad, uint quadMaterials[4]) {
+    if (min(min(quadMaterials[0], quadMaterials[1]), min(quadMaterials[2], quadMaterials[3])) != 0u) {
+        return;
+    }
+    for (int i = 0; i < 4; ++i) {
+        ivec2 local = quad + ivec2(i & 1, i >> 1);
+        uint material = i < 2 ? (i == 0 ? quadMaterials[0] : quadMaterials[1])
+                              : (i == 2 ? quadMaterials[2] : quadMaterials[3]);
+        if (material == 0u && all(lessThan(local, view.areaExtent))) {
+            writeUnscattered(local + view.areaOffset);
         }
     }
 }

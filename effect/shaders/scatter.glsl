@@ -16,6 +16,7 @@ layout(set = 0, binding = bindingNormal) uniform texture2D normalImage;
 layout(set = 0, binding = bindingStrength) uniform texture2D strengthImage;
 layout(set = 0, binding = bindingIrradiance) uniform texture2D irradianceImage;
 layout(set = 0, binding = bindingAlbedo) uniform texture2D albedoImage;
+layout(set = 0, binding = bindingNearestSampler) uniform sampler nearestSampler;
 layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredImage;
 
 #define view parameters.view
@@ -63,13 +64,15 @@ float strengthAt(ivec2 pixel, uint material) {
     return materials[material].strength * strengthAt(pixel);
 }
 
+// The albedo's share that is applied after scattering.
+vec3 albedoAfter(ivec2 pixel, uint material) {
+    vec3 albedo = hasFlag(flagAlbedo) ? texelFetch(albedoImage, pixel, 0).rgb : vec3(1.0);
+    return materials[material].preAndPost != 0u ? sqrt(albedo) : albedo;
+}
+
 // Writes a pixel of a material, given its light before the albedo that is applied after scattering.
 void writeLight(ivec2 pixel, uint material, vec3 light) {
-    if (hasFlag(flagAlbedo)) {
-        vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
-        light *= materials[material].preAndPost != 0u ? sqrt(albedo) : albedo;
-    }
-    imageStore(scatteredImage, pixel, vec4(light, 1.0));
+    imageStore(scatteredImage, pixel, vec4(light * albedoAfter(pixel, material), 1.0));
 }
 
 // Writes a pixel of a material, given the light that leaves there before strength and albedo.

@@ -54,6 +54,7 @@ NACRE_CONSTANT bindingLights = 11;     // transmit, storage: LightParameters[]
 NACRE_CONSTANT bindingShadowMaps = 12; // transmit, array of maxShadowMaps
 NACRE_CONSTANT bindingTransmitted = 13;  // transmit, output
 NACRE_CONSTANT bindingThicknessOut = 14; // transmit, output
+NACRE_CONSTANT bindingNearestSampler = 15; // scatter, clamps to the edge; for gathers
 NACRE_CONSTANT bindingIntermediates = 16; // + Intermediate
 
 // The order of enum class Intermediate (pass_table.hpp), for layout(binding = bindingIntermediates + ...).
@@ -105,7 +106,10 @@ struct ScatterParameters {
     uint burleyRotation;
     uint thesisRadius; // taps on either side
     float thesisStrength;
-    float unused0, unused1, unused2;
+    float unused0;
+    vec2 depthTexelSize; // 1 / size of the image
+    vec2 materialIdTexelSize;
+    float unused1, unused2;
     // Of `bank`, per level of the pyramid from 1 on: its first texel, width, height, and first block of the blur.
     ivec4 bankLevels[7];
 };
@@ -146,7 +150,7 @@ struct BrutePixel {
     vec4 position; // view space, mm; w: material id
 };
 
-// Mixture table of `bank` in 4-byte words: a head that holds the bin offset (a float), then 24 half floats a bin
+// Mixture table of `bank` in 4-byte words: a head that holds the bin offset and the strength (floats), then 24 half floats a bin
 // (BankTable in nacre/bank.hpp).
 NACRE_CONSTANT bankTableHead = 4;
 NACRE_CONSTANT bankBinWords = 12;
@@ -205,8 +209,8 @@ struct LightParameters {
 static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
               offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
               sizeof(ViewParameters) == 240);
-static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(ScatterParameters, bankLevels) == 272 &&
-              sizeof(ScatterParameters) == 272 + 7 * sizeof(ivec4));
+static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(ScatterParameters, depthTexelSize) == 264 &&
+              offsetof(ScatterParameters, bankLevels) == 288 && sizeof(ScatterParameters) == 288 + 7 * sizeof(ivec4));
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
 static_assert(offsetof(MaterialParameters, exchangeGroups) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
