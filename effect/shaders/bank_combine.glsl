@@ -156,20 +156,32 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
 struct Tap {
     vec4 light; // w: mass
     float total;
+    float away; // mm, the texel's surface behind the pixel's
 };
 
 Tap weightedTap(uvec2 light, uvec2 surface, float depth, float scale, bool taken) {
     float difference = uintBitsToFloat(surface.x) - depth;
     float weight = taken && surface.y >= presentBit ? falloff(difference * difference * scale) : 0.0;
-    return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight);
+    return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight, weight * difference);
 }
 
-void addTaps(inout Sum sum, vec3 weight, Tap upperLeft, Tap upperRight, Tap lowerLeft, Tap lowerRight, vec2 fraction) {
-    vec4 light = mix(mix(upperLeft.light, upperRight.light, fraction.x),
-                     mix(lowerLeft.light, lowerRight.light, fraction.x), fraction.y);
-    float total = mix(mix(upperLeft.total, upperRight.total, fraction.x),
-                      mix(lowerLeft.total, lowerRight.total, fraction.x), fraction.y);
-    add(sum, weight, light * (1.0 / max(total, bankLeastWeight)));
+Tap mixTaps(Tap a, Tap b, float fraction) {
+    return Tap(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction), mix(a.away, b.away, fraction));
+}
+
+// A level's share. On a slope the taps' weighted mean depth is the pixel's; where it is away, they stand on another
+// surface, and the share falls. `scale`: levelScale.
+void addTap(inout Sum sum, vec3 weight, Tap tap, float scale) {
+    float normalization = 1.0 / max(tap.total, bankLeastWeight);
+    float away = tap.away * normalization;
+    float share = falloff(away * away * scale * (bankLevelDepthVariance / bankLevelAwayVariance));
+    add(sum, weight, tap.light * (share * normalization));
+}
+
+void addTaps(inout Sum sum, vec3 weight, Tap upperLeft, Tap upperRight, Tap lowerLeft, Tap lowerRight, vec2 fraction,
+             float scale) {
+    addTap(sum, weight, mixTaps(mixTaps(upperLeft, upperRight, fraction.x), mixTaps(lowerLeft, lowerRight, fraction.x),
+                                fraction.y), scale);
 }
 
 // 1 / (bankLevelDepthVariance · t²)

@@ -169,10 +169,6 @@ Tap loadTap(int index, float depth, float scale, uint material, const bool separ
                        !separate || exchanges(surface.y & 0xffffu, material));
 }
 
-Tap mixTaps(Tap a, Tap b, float fraction) {
-    return Tap(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction));
-}
-
 // Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
 void addFinestLevel(inout Sum sums[4], vec3 weight, Group group, const bool separate) {
     float scale = levelScale(1, group.depth);
@@ -188,7 +184,7 @@ void addFinestLevel(inout Sum sums[4], vec3 weight, Group group, const bool sepa
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         Tap tap = mixTaps(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25);
-        add(sums[i], weight, tap.light / max(tap.total, bankLeastWeight));
+        addTap(sums[i], weight, tap, scale);
     }
 }
 
@@ -208,7 +204,7 @@ void addLevel(inout Sum sums[4], vec3 weight, int level, Group group, const bool
     Tap lowerRight = loadTap(below + 1, group.depth, scale, group.material, separate);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         addTaps(sums[i], weight, upperLeft, upperRight, lowerLeft, lowerRight,
-                corner.fraction + vec2(i & 1, i >> 1) * step);
+                corner.fraction + vec2(i & 1, i >> 1) * step, scale);
     }
 }
 

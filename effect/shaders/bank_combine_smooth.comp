@@ -142,7 +142,7 @@ void addRoughLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, ive
     }
     float step = 1.0 / float(1 << level);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        addTaps(sums[i], weight, taps[0], taps[1], taps[2], taps[3], corner.fraction + vec2(i & 1, i >> 1) * step);
+        addTaps(sums[i], weight, taps[0], taps[1], taps[2], taps[3], corner.fraction + vec2(i & 1, i >> 1) * step, scale);
     }
 }
 
