@@ -284,21 +284,27 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
 struct Tap {
     vec4 light; // w: mass
     float total;
+    float away; // mm, how far behind `depth` the texel's surface is
 };
 
 Tap weightedTap(uvec2 light, uvec2 surface, float depth, float scale, uint material) {
     float difference = uintBitsToFloat(surface.x) - depth;
     bool taken = surface.y >= presentBit && givesLight(surface.y & 0xffffu, material);
     float weight = taken ? falloff(difference * difference * scale) : 0.0;
-    return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight);
+    return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight, weight * difference);
 }
 
 Tap mixTaps(Tap a, Tap b, float fraction) {
-    return Tap(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction));
+    return Tap(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction), mix(a.away, b.away, fraction));
 }
 
-void addTap(inout Sum sum, vec3 weight, Tap tap) {
-    add(sum, weight, tap.light * (1.0 / max(tap.total, bankLeastWeight)));
+// A level's share of a pixel. On a slope the taps' weighted mean depth is the pixel's, which is `offset` behind the taps'
+// `depth`; where it is away from there, they stand on another surface, and the share falls. `scale`: levelScale.
+void addTap(inout Sum sum, vec3 weight, Tap tap, float offset, float scale) {
+    float normalization = 1.0 / max(tap.total, bankLeastWeight);
+    float away = tap.away * normalization - offset;
+    float share = falloff(away * away * scale * (bankLevelDepthVariance / bankLevelAwayVariance));
+    add(sum, weight, tap.light * (share * normalization));
 }
 
 // 1 / (bankLevelDepthVariance · t²)
@@ -308,7 +314,8 @@ float levelScale(int level, float depth) {
 }
 
 // Adds a level with depth weights, which the quad's pixels share.
-void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth, uint material) {
+void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth, vec4 offsets,
+                      uint material) {
     float scale = levelScale(level, depth);
     Tap taps[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -320,14 +327,15 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
     [[unroll]] for (int x = 0; x < 2; ++x) {
         Tap upper = mixTaps(taps[0], taps[1], fraction.x);
         Tap lower = mixTaps(taps[2], taps[3], fraction.x);
-        addTap(sums[x], weight, mixTaps(upper, lower, fraction.y));
-        addTap(sums[x + 2], weight, mixTaps(upper, lower, fraction.y + step));
+        addTap(sums[x], weight, mixTaps(upper, lower, fraction.y), offsets[x], scale);
+        addTap(sums[x + 2], weight, mixTaps(upper, lower, fraction.y + step), offsets[x + 2], scale);
         fraction.x += step;
     }
 }
 
-// The levels from 2 on: the quad's pixels lie between the same four texels.
-void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, uint material) {
+// The levels from 2 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
+void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, vec4 offsets,
+                     uint material) {
     [[unroll]] for (int level = 2; level <= bankLevels; ++level) {
         vec3 weight = kernelWeight(mixture, level + 1);
         if (weight != vec3(0.0)) {
@@ -335,7 +343,7 @@ void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 qua
             if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
                 addPlainLevel(sums, weight, level, corner);
             } else {
-                addWeightedLevel(sums, weight, level, corner, depth, material);
+                addWeightedLevel(sums, weight, level, corner, depth, offsets, material);
             }
         }
     }

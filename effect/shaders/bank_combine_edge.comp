@@ -127,7 +127,8 @@ void addFinestLevel(inout Sum sums[4], vec3 weight, Group group) {
         rows[y][1] = mixTaps(middle, right, 0.25);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        addTap(sums[i], weight, mixTaps(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25));
+        addTap(sums[i], weight, mixTaps(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25),
+               group.depths[i] - group.depth, scale);
     }
 }
 
@@ -136,7 +137,7 @@ void combineGroup(Group group) {
     Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
     addPixels(sums, mixture, group);
     addFinestLevel(sums, kernelWeight(mixture, 2), group);
-    addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.material);
+    addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
     vec4 own[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         own[i] = lightAt(group.first + ivec2(i & 1, i >> 1));

@@ -86,7 +86,7 @@ void main() {
         vec4 own[4];
         addPixels(sums, mixture, texel, beside, own);
         addFinestLevel(sums, kernelWeight(mixture, 2), texel);
-        addCoarseLevels(sums, mixture, region, quad, depth, material);
+        addCoarseLevels(sums, mixture, region, quad, depth, vec4(0.0), material);
         storeGroup(quad, members, material, mixture.strength, own, sums);
     }
     storeRest(quad, quadMaterials);

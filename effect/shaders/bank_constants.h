@@ -14,11 +14,15 @@ const int bankBinCount = 113;
 
 // Reduction: pixels of a 2x2 block further apart in depth than this many texel widths are two surfaces, and the texel
 // keeps the one with more light-receiving area.
-const float bankSurfaceSeparation = 2.5f;
-// Blur: q = Δz² / (bankBlurDepthVariance · t²). 1.25 is twice half the variance (in texels) of a whole level.
-const float bankBlurDepthVariance = 1.25f;
+const float bankSurfaceSeparation = 3.0f;
+// Blur: q = Δz² / (bankBlurDepthVariance · t²). Twice half the variance (in texels) of a whole level
+// would be 1.25: −0.4 dB.
+const float bankBlurDepthVariance = 2.0f;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
-const float bankLevelDepthVariance = 5.0f;
+const float bankLevelDepthVariance = 8.0f;
+// Combination, per level: where the taps' weighted mean depth is `away` texel widths from the pixel's, its share falls by
+// g(away² / bankLevelAwayVariance).
+const float bankLevelAwayVariance = 1.5f;
 // Combination, full-resolution 3x3: q = Δz² / (bankPixelDepthVariance · t²).
 const float bankPixelDepthVariance = 2.0f;
 // A tap this many texel widths away in depth is no slope but another surface: it is missing, which leaves its share of

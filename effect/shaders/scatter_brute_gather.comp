@@ -1,6 +1,6 @@
 // Second pass of `brute`: sum over every pixel within the radius of R(distance)·area·light, divided by that of
-// R(distance)·area. Within bruteCellRadius px the profile varies inside a pixel: there its integral over the pixel's
-// cell is taken; further out its value at the pixel's centre, from the radial table.
+// R(distance)·area. A pixel's surface is a flat patch, lit evenly. Within cellRadius px the profile varies on a patch:
+// there its integral over the patch is taken; further out its value at the pixel's centre, from the radial table.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scatter.glsl"
@@ -14,9 +14,11 @@ layout(set = 0, binding = bindingIntermediates + intermediatePixels, std430) rea
     BrutePixel pixels[];
 };
 
-// [px] Half width of the square whose cells are integrated. A Gaussian of 2 px, the narrowest whose values at pixel
+// [px] Half width of the square whose patches are integrated. A Gaussian of 2 px, the narrowest whose values at pixel
 // centres may stand for its integrals (edge response within 0.25 %), has fallen to 8 % there.
 const int cellRadius = 4;
+// [standard deviations] of a Gaussian, beyond which it is left out of the integrals.
+const float gaussianReach = 4.5;
 const float pi = 3.14159265;
 
 struct Sum {
@@ -28,7 +30,6 @@ struct Receiver {
     ivec2 local;
     uint material;
     vec3 position;
-    TangentPlane plane;
 };
 
 // Abramowitz and Stegun 7.1.26, |error| < 1.5e-7.
@@ -42,7 +43,7 @@ float errorFunction(float x) {
 BrutePixel pixelAt(Receiver receiver, ivec2 offset) {
     ivec2 local = receiver.local + offset;
     if (any(lessThan(local, ivec2(0))) || any(greaterThanEqual(local, view.areaExtent))) {
-        return BrutePixel(vec4(0.0), vec4(0.0));
+        return BrutePixel(vec4(0.0), vec4(0.0), vec2(0.0), vec2(0.0));
     }
     BrutePixel pixel = pixels[local.y * view.areaExtent.x + local.x];
     if (pixel.light.w > 0.0 && !exchanges(uint(pixel.position.w), receiver.material)) {
@@ -51,40 +52,57 @@ BrutePixel pixelAt(Receiver receiver, ivec2 offset) {
     return pixel;
 }
 
-// Mass of a Gaussian within the pixel at an offset along one axis; scale = pixel size / √(2·variance).
-float cellMass(int offset, float scale) {
-    return 0.5 * (errorFunction((float(offset) + 0.5) * scale) - errorFunction((float(offset) - 0.5) * scale));
+// The patch of a pixel at an offset.
+TangentPlane patchAt(Receiver receiver, ivec2 offset, BrutePixel pixel) {
+    return tangentPlane(receiver.local + offset + view.areaOffset, pixel.position.z, pixel.slope);
 }
 
-// How much more of a Gaussian a pixel's surface holds than one of the receiver's slope would: its area over the
-// receiver's, until its steep side reaches further than the Gaussian does; scale = pixel size / √(8·variance).
-float areaRatio(float area, float receiverArea, float scale) {
-    float ratio = area / receiverArea;
-    return ratio <= 1.0 || scale < 1e-3 ? ratio : errorFunction(ratio * scale) / errorFunction(scale);
+// Gauss-Legendre quadrature with ten points on [−1, 1], which is symmetric.
+const float nodes[5] = float[](0.1488743390, 0.4333953941, 0.6794095683, 0.8650633667, 0.9739065285);
+const float nodeWeights[5] = float[](0.2955242247, 0.2692667193, 0.2190863625, 0.1494513492, 0.0666713443);
+
+// Integral of a Gaussian over the points offset + u·x + v·y, u and v in [−½, ½]: error functions along u, quadrature
+// along v, over the part of it where the Gaussian is.
+float patchMass(vec3 offset, TangentPlane surface, float variance) {
+    float xx = dot(surface.x, surface.x);
+    vec3 across = surface.y - surface.x * (dot(surface.y, surface.x) / xx); // parts across x
+    vec3 offsetAcross = offset - surface.x * (dot(offset, surface.x) / xx);
+    float acrossSquared = dot(across, across);
+    float middle = -dot(offsetAcross, across) / acrossSquared;
+    float reach = gaussianReach * sqrt(variance / acrossSquared);
+    float low = max(-0.5, middle - reach);
+    float high = min(0.5, middle + reach);
+    if (low >= high) {
+        return 0.0;
+    }
+    float scale = sqrt(xx / (2.0 * variance));
+    float sum = 0.0;
+    for (int i = 0; i < 10; ++i) {
+        float node = i < 5 ? nodes[i] : -nodes[i - 5];
+        float v = 0.5 * (low + high) + 0.5 * (high - low) * node;
+        vec3 distanceAcross = offsetAcross + v * across;
+        float nearest = -dot(offset + v * surface.y, surface.x) / xx; // u
+        float alongMass = errorFunction((0.5 - nearest) * scale) + errorFunction((0.5 + nearest) * scale);
+        sum += nodeWeights[i % 5] * exp(-dot(distanceAcross, distanceAcross) / (2.0 * variance)) * alongMass;
+    }
+    return 0.25 * sum * (high - low) * sqrt(acrossSquared / (2.0 * pi * variance));
 }
 
-// One Gaussian layer over the square's cells. On the tangent plane its integral over a cell is a product of error
-// functions; where the surface leaves the plane, or the pixel grid is skewed on it, the true distance corrects it.
+// One Gaussian layer over the square's patches.
 void addLayer(Receiver receiver, vec4 layer, inout Sum sum) {
     float variance = max(layer.w, 1e-8);
-    vec2 stepLength = vec2(length(receiver.plane.x), length(receiver.plane.y));
-    vec2 scale = stepLength * inversesqrt(2.0 * variance);
-    float areaScale = 0.5 * sqrt(scale.x * scale.y);
+    float deviation = sqrt(variance);
     for (int y = -cellRadius; y <= cellRadius; ++y) {
-        float rowMass = cellMass(y, scale.y);
-        if (rowMass < 1e-9) {
-            continue;
-        }
         for (int x = -cellRadius; x <= cellRadius; ++x) {
             BrutePixel pixel = pixelAt(receiver, ivec2(x, y));
-            float mass = rowMass * cellMass(x, scale.x);
-            if (pixel.light.w > 0.0 && mass > 1e-9) {
-                vec3 difference = pixel.position.xyz - receiver.position;
-                vec2 flatOffset = vec2(x, y) * stepLength;
-                float excess = dot(difference, difference) - dot(flatOffset, flatOffset);
-                float correction = exp(clamp(-excess / (2.0 * variance), -80.0, 4.0));
-                float areas = areaRatio(pixel.light.w, stepLength.x * stepLength.y, areaScale);
-                vec3 weight = layer.rgb * (mass * correction * areas);
+            if (pixel.light.w <= 0.0) {
+                continue;
+            }
+            vec3 offset = pixel.position.xyz - receiver.position;
+            TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
+            float halfSize = 0.5 * (length(surface.x) + length(surface.y));
+            if (length(offset) < halfSize + gaussianReach * deviation) {
+                vec3 weight = layer.rgb * patchMass(offset, surface, variance);
                 sum.light += weight * pixel.light.rgb;
                 sum.weight += weight;
             }
@@ -112,10 +130,11 @@ void addBurley(Receiver receiver, vec3 meanFreePath, inout Sum sum) {
                 vec3 decay = exp(-sqrt(pixel.light.w / pi) / (3.0 * meanFreePath));
                 weight = 1.0 - 0.25 * decay * decay * decay - 0.75 * decay;
             } else {
+                TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
                 int samples = max(abs(x), abs(y)) == 1 ? 6 : 2;
                 for (int i = 0; i < samples * samples; ++i) {
                     vec2 inside = (vec2(i % samples, i / samples) + 0.5) / float(samples) - 0.5;
-                    vec3 point = pixel.position.xyz + inside.x * receiver.plane.x + inside.y * receiver.plane.y;
+                    vec3 point = pixel.position.xyz + inside.x * surface.x + inside.y * surface.y;
                     weight += burley(max(distance(point, receiver.position), 1e-6), meanFreePath);
                 }
                 weight *= pixel.light.w / float(samples * samples);
@@ -169,7 +188,7 @@ void main() {
         writeUnscattered(pixel);
         return;
     }
-    Receiver receiver = Receiver(local, material, viewPosition(pixel, z), tangentPlane(pixel, z));
+    Receiver receiver = Receiver(local, material, viewPosition(pixel, z));
     Sum sum = Sum(vec3(0.0), vec3(0.0));
     uint layerCount = uint(tables[material].meanFreePath.w);
     for (uint layer = 0u; layer < layerCount; ++layer) {

@@ -1,4 +1,5 @@
-// First pass of `brute`: what the gather reads of every pixel, once: entering light, surface area, position, material.
+// First pass of `brute`: what the gather reads of every pixel, once: entering light, position, material and the
+// patch of surface the pixel sees.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scatter.glsl"
@@ -17,11 +18,11 @@ void main() {
     ivec2 pixel = local + view.areaOffset;
     uint material = materialAt(pixel);
     float z = viewZ(pixel);
-    BrutePixel result = BrutePixel(vec4(0.0), vec4(0.0));
+    BrutePixel result = BrutePixel(vec4(0.0), vec4(0.0), vec2(0.0), vec2(0.0));
     if (material != 0u && isValidZ(z)) {
         vec3 light = enteringLight(pixel, material);
-        TangentPlane plane = tangentPlane(pixel, z);
-        result.light = isFinite(light) ? vec4(light, plane.area) : vec4(0.0);
+        result.slope = patchSlope(pixel, z);
+        result.light = isFinite(light) ? vec4(light, tangentPlane(pixel, z, result.slope).area) : vec4(0.0);
         result.position = vec4(viewPosition(pixel, z), float(material));
     }
     pixels[local.y * view.areaExtent.x + local.x] = result;

@@ -104,7 +104,7 @@ void addSample(Disc disc, vec2 offset, float density, inout Sum sum) {
     vec3 point = viewPosition(source, z);
     float area = 1.0;
     if (hasFlag(flagNormal)) {
-        TangentPlane plane = tangentPlane(source, z);
+        TangentPlane plane = normalPlane(source, z);
         point += inside.x * plane.x + inside.y * plane.y;
         area = plane.area / disc.pixelArea;
     } else {
@@ -146,7 +146,7 @@ vec3 gather(Disc disc, float z, int sampleCount) {
     Sum sum = gatherSamples(disc, sqrt(disc.pixelArea / pi), inverse(mmPerPixel), sampleCount);
     vec3 own = enteringLight(disc.pixel, disc.material);
     if (isFinite(own)) {
-        float area = hasFlag(flagNormal) ? tangentPlane(disc.pixel, z).area : disc.pixelArea;
+        float area = hasFlag(flagNormal) ? normalPlane(disc.pixel, z).area : disc.pixelArea;
         vec3 weight = cumulative(disc, sqrt(area / pi));
         sum.light += weight * own;
         sum.weight += weight;

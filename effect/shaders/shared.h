@@ -148,6 +148,8 @@ struct BruteTable {
 struct BrutePixel {
     vec4 light;    // irradiance; w: surface area in mm², 0 = contributes nothing
     vec4 position; // view space, mm; w: material id
+    vec2 slope;    // of its patch, mm of view z per pixel in x and y
+    vec2 unused;
 };
 
 // Mixture table of `bank` in 4-byte words: a head that holds the bin offset and the strength (floats), then 24 half floats a bin
@@ -214,7 +216,7 @@ static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(Scatter
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
 static_assert(offsetof(MaterialParameters, exchangeGroups) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
-static_assert(sizeof(BrutePixel) == 32);
+static_assert(sizeof(BrutePixel) == 48);
 static_assert(sizeof(BankDispatch) == 16);
 static_assert(offsetof(BurleyTable, radial) == 32 && sizeof(BurleyTable) == 16 * (2 + 2 * burleyEntries));
 static_assert(thesisKernelStart(1) == 0 && thesisKernelStart(thesisMaxRadius + 1) == thesisTaps);

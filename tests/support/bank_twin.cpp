@@ -376,6 +376,7 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
     Rgb light{};
     double mass = 0;
     double total = 0;
+    double away = 0; // of the texels' surface from the pixel's, mm
     for (int i = 0; i < 4; ++i) {
         const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
         const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
@@ -389,12 +390,15 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         }
         mass += tapWeight * tap.mass;
         total += tapWeight;
+        away += tapWeight * difference;
     }
     total = std::max<double>(total, constants::bankLeastWeight);
+    const double distance = away / (total * width);
+    const double share = falloff(distance * distance / constants::bankLevelAwayVariance);
     for (double& value : light) {
-        value /= total;
+        value *= share / total;
     }
-    sum.add(weight, light, mass / total);
+    sum.add(weight, light, share * mass / total);
 }
 
 } // namespace nacre::tests
