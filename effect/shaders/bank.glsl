@@ -94,9 +94,38 @@ RawTexel rawTexel(int level, ivec2 texel) {
     return inside ? unpackRaw(rawTexels[texelIndex(level, texel)]) : emptyTexel();
 }
 
+// Position of one of the places around a block, counted row above, row below, then the sides.
+ivec2 ringPosition(int index, ivec2 size) {
+    int width = size.x + 2;
+    if (index < 2 * width) {
+        return index < width ? ivec2(index - 1, -1) : ivec2(index - width - 1, size.y);
+    }
+    int side = index - 2 * width;
+    return ivec2((side & 1) == 0 ? -1 : size.x, side >> 1);
+}
+
 // Width of a texel in mm, where the surface faces the camera. Level 0 are the pixels.
 float texelWidth(int level, float depth) {
     return float(1 << level) * parameters.pixelWidth * clipW(-depth);
+}
+
+// Depth step from a pixel to the next along one axis, in pixel widths, from the depths on either side (0 = none): their
+// mean or, where one side is a step to another surface, the smaller.
+float pixelStep(float before, float depth, float after) {
+    float width = texelWidth(0, depth);
+    float stepBefore = before > 0.0 ? depth - before : 0.0;
+    float stepAfter = after > 0.0 ? after - depth : 0.0;
+    float smaller = min(abs(stepBefore), abs(stepAfter));
+    float larger = max(abs(stepBefore), abs(stepAfter));
+    bool goesOn = larger <= 2.0 * max(smaller, width);
+    float both = goesOn ? 0.5 * (stepBefore + stepAfter) : smaller;
+    return (min(before, after) > 0.0 ? both : stepBefore + stepAfter) / width;
+}
+
+// Area of a pixel's surface relative to one that faces the camera, from its own depth and those left, right, above, below.
+float areaOf(float depth, vec4 around) {
+    vec2 slope = vec2(pixelStep(around.x, depth, around.y), pixelStep(around.z, depth, around.w));
+    return min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
 }
 
 // e^−q, near enough, and 0 from q = 4 on.

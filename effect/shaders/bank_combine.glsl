@@ -58,16 +58,6 @@ bool findRegion(int kind, out ivec2 region) {
     return true;
 }
 
-// Position of one of the places around a block, counted row above, row below, then the sides.
-ivec2 ringPosition(int index, ivec2 size) {
-    int width = size.x + 2;
-    if (index < 2 * width) {
-        return index < width ? ivec2(index - 1, -1) : ivec2(index - width - 1, size.y);
-    }
-    int side = index - 2 * width;
-    return ivec2((side & 1) == 0 ? -1 : size.x, side >> 1);
-}
-
 // The first texel of a level in shared memory.
 ivec2 levelFirst(int level, ivec2 region) {
     return (region >> level) - 1;

@@ -6,6 +6,23 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
+// Of the surface at each pixel, relative to one that faces the camera; as pixelDepths.
+shared float pixelAreas[2 * pairCount];
+
+// From the pixels of the region and those around it alone.
+void findAreas(int thread) {
+    for (int index = thread; index < 2 * pairCount; index += threads) {
+        int pair = index % pairCount;
+        ivec2 pixel = ivec2(pair % pairPitch * 2 + index / pairCount, pair / pairPitch);
+        bvec4 inside = bvec4(pixel.x > 0, pixel.x < 2 * pairPitch - 1, pixel.y > 0, pixel.y < regionSize.y + 1);
+        vec4 around = vec4(inside.x ? pixelDepths[pixelPlace(pixel - ivec2(1, 0))] : 0.0,
+                           inside.y ? pixelDepths[pixelPlace(pixel + ivec2(1, 0))] : 0.0,
+                           inside.z ? pixelDepths[pixelPlace(pixel - ivec2(0, 1))] : 0.0,
+                           inside.w ? pixelDepths[pixelPlace(pixel + ivec2(0, 1))] : 0.0);
+        pixelAreas[index] = areaOf(pixelDepths[index], around);
+    }
+}
+
 vec4 lightAt(ivec2 pixel) {
     return unpackLight(pixelLights[pixelPlace(pixel)]);
 }
@@ -70,7 +87,9 @@ vec4 blurPixel(ivec2 center, uint material) {
     float depth = pixelDepths[pixelPlace(center)];
     float width = texelWidth(0, depth);
     float scale = 1.0 / (bankPixelDepthVariance * width * width);
-    vec4 light = vec4(0.0);
+    vec3 light = vec3(0.0);
+    float area = 0.0;
+    float mass = 0.0;
     float counted = 0.0;
     [[unroll]] for (int j = 0; j < 9; ++j) {
         ivec2 offset = ivec2(j % 3, j / 3) - 1;
@@ -84,9 +103,13 @@ vec4 blurPixel(ivec2 center, uint material) {
             taken = taken && exchanges(pixelMaterials[place], material);
         }
         counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
-        light += (taken ? weight : 0.0) * tap;
+        weight = taken ? weight : 0.0;
+        mass += weight;
+        area += weight * pixelAreas[place];
+        light += weight * pixelAreas[place] * tap.rgb;
     }
-    return light / counted;
+    mass /= counted;
+    return vec4(light * (mass / max(area, bankLeastWeight)), mass);
 }
 
 void addPixels(inout Sum sums[4], Mixture mixture, Group group) {
@@ -157,6 +180,8 @@ void main() {
     }
     barrier();
     uvec4 quadWords = loadRegion(group.region, thread, texel);
+    barrier();
+    findAreas(thread);
     barrier();
     group.quad = group.region + 2 * texel;
     group.first = 2 * texel + 1;

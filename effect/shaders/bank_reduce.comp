@@ -13,6 +13,9 @@ const int side = 16; // texels of level 1
 // Level 1; each coarser level then stands at its first child's place.
 shared uvec4 texels[side * side];
 shared uint occupied;
+// Of the tile's pixels and one around, mm; 0 where none receives light.
+const int pitch = tileSize + 2;
+shared float depths[pitch * pitch];
 
 // What is fetched of a 2x2 block: everything before anything is asked, so that the fetches overlap.
 struct Fetched {
@@ -39,24 +42,47 @@ Fetched fetchPixels(ivec2 first) {
     return fetched;
 }
 
-// The pixels as texels. Not finite light is no light; not finite depth is no surface, and what lies on it is dropped,
-// so that nothing near is taken for smooth.
-void decodePixels(Fetched fetched, ivec2 first, out RawTexel pixels[4], out bool receives, out bool dropped) {
-    receives = false;
-    dropped = false;
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 pixel = pixelOf(first, i);
-        uint material = materialOfId(fetched.id[i]);
-        material = all(lessThan(first + ivec2(i & 1, i >> 1), view.areaExtent)) ? material : 0u;
-        float z = viewZ(pixel, fetched.depth[i]);
-        vec3 light = fetched.light[i] * albedoBefore(pixel, material);
-        bool isOnSurface = material != 0u && isValidZ(z);
-        bool gives = isOnSurface && isFinite(light);
-        pixels[i] = RawTexel(gives ? min(light, vec3(maxHalf)) : vec3(0.0), 1.0, gives ? 1.0 : 0.0, gives ? -z : 0.0,
-                             material, false);
-        receives = receives || isOnSurface;
-        dropped = dropped || (material != 0u && !isOnSurface);
+// The tile's ring of pixels around: one a thread.
+void loadRing(ivec2 tileFirst, int thread) {
+    ivec2 place = ringPosition(min(thread, 4 * tileSize + 3), ivec2(tileSize));
+    ivec2 local = tileFirst + place;
+    ivec2 inside = clamp(local, ivec2(0), view.areaExtent - 1);
+    float z = viewZ(inside + view.areaOffset);
+    bool receives = local == inside && materialAt(inside + view.areaOffset) != 0u && isValidZ(z);
+    depths[(place.y + 1) * pitch + place.x + 1] = receives ? -z : 0.0;
+}
+
+// What a pixel is before its neighbours are known.
+struct Pixel {
+    vec3 light;
+    uint material;
+    bool gives;
+};
+
+// Not finite light is no light; not finite depth is no surface, and what lies on it is dropped, so that nothing near is
+// taken for smooth. `place`: in `depths`, which is filled.
+Pixel decodePixel(Fetched fetched, int i, ivec2 first, int place, inout bool receives, inout bool dropped) {
+    ivec2 pixel = pixelOf(first, i);
+    uint material = materialOfId(fetched.id[i]);
+    material = all(lessThan(first + ivec2(i & 1, i >> 1), view.areaExtent)) ? material : 0u;
+    float z = viewZ(pixel, fetched.depth[i]);
+    vec3 light = fetched.light[i] * albedoBefore(pixel, material);
+    bool isOnSurface = material != 0u && isValidZ(z);
+    depths[place] = isOnSurface ? -z : 0.0;
+    receives = receives || isOnSurface;
+    dropped = dropped || (material != 0u && !isOnSurface);
+    return Pixel(min(light, vec3(maxHalf)), material, isOnSurface && isFinite(light));
+}
+
+RawTexel toTexel(Pixel pixel, int place) {
+    if (!pixel.gives) {
+        RawTexel empty = emptyTexel();
+        empty.material = pixel.material;
+        return empty;
     }
+    float depth = depths[place];
+    float area = areaOf(depth, vec4(depths[place - 1], depths[place + 1], depths[place - pitch], depths[place + pitch]));
+    return RawTexel(min(area * pixel.light, vec3(maxHalf)), area, 1.0, depth, pixel.material, false);
 }
 
 // Depth steps from pixel to pixel inside a 2x2 block, in pixel widths.
@@ -78,9 +104,6 @@ RawTexel reducePixels(RawTexel pixels[4], out uvec4 quad) {
     bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
     RawTexel texel = mergeTexels(pixels, kept);
     vec2 slope = blockSlope(pixels, kept, texel.depth);
-    float area = min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
-    texel.light = min(area * texel.light, vec3(maxHalf));
-    texel.area *= area;
     vec2 beside = 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
                              falloff(slope.y * slope.y / bankPixelDepthVariance));
     quad = uvec4(floatBitsToUint(texel.depth), packHalf2x16(beside), pixels[0].material | pixels[1].material << 16,
@@ -132,12 +155,22 @@ void main() {
     if (thread == 0) {
         occupied = 0u;
     }
-    barrier();
+    if (thread < 4 * tileSize + 4) {
+        loadRing(tile * tileSize, thread);
+    }
     Fetched fetched = fetchPixels(firstPixel);
+    bool receives = false;
+    bool dropped = false;
+    int place = (2 * texel.y + 1) * pitch + 2 * texel.x + 1;
+    Pixel decoded[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        decoded[i] = decodePixel(fetched, i, firstPixel, place + (i & 1) + (i >> 1) * pitch, receives, dropped);
+    }
+    barrier();
     RawTexel pixels[4];
-    bool receives;
-    bool dropped;
-    decodePixels(fetched, firstPixel, pixels, receives, dropped);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        pixels[i] = toTexel(decoded[i], place + (i & 1) + (i >> 1) * pitch);
+    }
     uvec4 quad;
     RawTexel reduced = reducePixels(pixels, quad);
     reduced.dropped = reduced.dropped || dropped;

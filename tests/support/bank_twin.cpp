@@ -14,6 +14,8 @@ static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
               constants::bankBinCount == BankTable::binCount);
 
 constexpr int tileSize = 32;
+constexpr int regionWidth = 32; // of pass C's workgroups, px
+constexpr int regionHeight = 16;
 
 double falloff(double q) {
     return std::pow(std::max(0.0, 1 - q / 4), 4);
@@ -43,28 +45,42 @@ struct Block {
     }
 };
 
-// Depth differences along x and y inside a 2x2 block of pixels, over the pairs that are both on the surface.
-double blockSlope(const std::array<const RawTexel*, 4>& texels, const RawTexel& block, double separation) {
-    const auto kept = [&](int i) {
-        return texels[i] != nullptr && texels[i]->mass > 0 && std::abs(texels[i]->depth - block.depth) <= separation;
-    };
-    const auto slope = [&](int a, int b, int c, int d) {
-        double sum = 0;
-        int pairs = 0;
-        if (kept(a) && kept(b)) {
-            sum += texels[b]->depth - texels[a]->depth;
-            ++pairs;
-        }
-        if (kept(c) && kept(d)) {
-            sum += texels[d]->depth - texels[c]->depth;
-            ++pairs;
-        }
-        return pairs > 0 ? sum / pairs : 0.0;
-    };
-    return std::hypot(slope(0, 1, 2, 3), slope(0, 2, 1, 3));
+// Depth step to the next pixel along one axis, mm: the mean of both sides or, where one is a step to another surface,
+// the smaller. A side without a surface is null.
+double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* after, double width) {
+    const double stepBefore = before != nullptr ? pixel.depth - before->depth : 0;
+    const double stepAfter = after != nullptr ? after->depth - pixel.depth : 0;
+    if (before == nullptr || after == nullptr) {
+        return stepBefore + stepAfter;
+    }
+    const double smaller = std::min(std::abs(stepBefore), std::abs(stepAfter));
+    const double larger = std::max(std::abs(stepBefore), std::abs(stepAfter));
+    return larger <= 2 * std::max(smaller, width) ? 0.5 * (stepBefore + stepAfter) : smaller;
 }
 
 } // namespace
+
+// Area of a pixel's surface relative to one that faces the camera. A workgroup of pass C knows the pixels of its region
+// and those around it: `from` is one of its pixels.
+double BankTwin::pixelArea(int x, int y, const std::array<int, 2>* from) const {
+    const auto seen = [&](int seenX, int seenY) -> const RawTexel* {
+        if (from != nullptr) {
+            const int firstX = (*from)[0] / regionWidth * regionWidth - 1;
+            const int firstY = (*from)[1] / regionHeight * regionHeight - 1;
+            if (seenX < firstX || seenY < firstY || seenX >= firstX + regionWidth + 2 ||
+                seenY >= firstY + regionHeight + 2) {
+                return nullptr;
+            }
+        }
+        const RawTexel* pixel = raw_[0].at(seenX, seenY);
+        return pixel != nullptr && pixel->mass > 0 ? pixel : nullptr;
+    };
+    const RawTexel& pixel = *raw_[0].at(x, y);
+    const double width = texelWidth(0, pixel.depth);
+    const double stepX = pixelStep(seen(x - 1, y), pixel, seen(x + 1, y), width);
+    const double stepY = pixelStep(seen(x, y - 1), pixel, seen(x, y + 1), width);
+    return std::min<double>(std::hypot(1, stepX / width, stepY / width), constants::bankLargestArea);
+}
 
 // Numerator and denominator of the result, per channel.
 struct BankTwin::Accumulator {
@@ -91,6 +107,11 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
         const bool scatters = scene.materialId[i] != 0;
         raw_[0].texels.push_back(scatters ? RawTexel{scene.irradiance[i], 1, 1, scene.depth[i]} : RawTexel{});
     }
+    for (int y = 0; settings.areaWeights && y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+            weighByArea(x, y);
+        }
+    }
     for (int level = 1; level <= bankLevels; ++level) {
         reduceLevel(level);
     }
@@ -108,6 +129,17 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
         for (int x = 0; x < scene.width; x += 2) {
             combineQuad(x, y, tileKinds_[y / tileSize * tilesX_ + x / tileSize] == 1);
         }
+    }
+}
+
+void BankTwin::weighByArea(int x, int y) {
+    RawTexel& pixel = raw_[0].texels[scene_.index(x, y)];
+    if (pixel.mass <= 0) {
+        return;
+    }
+    pixel.area = pixelArea(x, y, nullptr);
+    for (double& value : pixel.light) {
+        value *= pixel.area;
     }
 }
 
@@ -146,14 +178,6 @@ void BankTwin::reduceLevel(int level) {
                 const RawTexel back = block.sum([&](const RawTexel& t) { return farthest - t.depth <= separation; });
                 texel = front.mass >= back.mass ? front : back;
                 texel.dropped = true;
-            }
-            if (level == 1 && settings_.areaWeights) {
-                const double slope = blockSlope(block.texels, texel, separation) / texelWidth(0, texel.depth);
-                const double area = std::min<double>(std::sqrt(1 + slope * slope), constants::bankLargestArea);
-                texel.area *= area;
-                for (double& value : texel.light) {
-                    value *= area;
-                }
             }
             to.texels.push_back(texel);
         }
@@ -262,7 +286,7 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
         if (first == nullptr || first->mass <= 0 || done[leader]) {
             continue;
         }
-        const double depth = first->depth;
+        const double depth = smooth ? raw_[1].at(quadX / 2, quadY / 2)->depth : first->depth;
         const int material = scene_.materialId[scene_.index(quadX + leader % 2, quadY + leader / 2)];
         const BankWeights weights = tables_[material - 1].at(scene_.focalLength / depth);
         for (int i = leader; i < 4; ++i) {
@@ -276,18 +300,19 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
             }
             done[i] = true;
             Accumulator sum;
-            sum.add(weights[0], pixel->light, 1);
+            sum.add(weights[0], scene_.irradiance[scene_.index(x, y)], 1);
             if (smooth) {
                 addPixelsOnSlope(sum, weights[1], x, y);
             } else {
                 addPixels(sum, weights[1], x, y);
             }
             for (int level = 1; level <= bankLevels; ++level) {
-                addLevel(sum, weights[level + 1], level, x, y, level == 1 ? pixel->depth : depth);
+                addLevel(sum, weights[level + 1], level, x, y, {depth, smooth ? 0 : pixel->depth - depth, smooth});
             }
             for (int channel = 0; channel < 3; ++channel) {
-                result_[scene_.index(x, y)][channel] =
-                    sum.mass[channel] > 0 ? sum.light[channel] / sum.mass[channel] : pixel->light[channel];
+                result_[scene_.index(x, y)][channel] = sum.mass[channel] > 0
+                                                           ? sum.light[channel] / sum.mass[channel]
+                                                           : scene_.irradiance[scene_.index(x, y)][channel];
             }
         }
     }
@@ -328,7 +353,7 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
         }
         const double kernel = (i % 3 == 1 ? 1 : sideX) * (i / 3 == 1 ? 1 : sideY) / total;
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += kernel * tap->light[channel];
+            light[channel] += kernel * tap->light[channel] / tap->area;
         }
         mass += kernel;
     }
@@ -337,6 +362,8 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
 
 void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
     constexpr double binomial[] = {0.25, 0.5, 0.25};
+    const std::array<int, 2> from{x, y};
+    double areas = 0;
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
     Rgb light{};
@@ -352,21 +379,24 @@ void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) cons
         const double difference = tap->depth - depth;
         const double tapWeight =
             kernel * falloff(difference * difference / (constants::bankPixelDepthVariance * width * width));
+        const double tapArea = settings_.areaWeights ? pixelArea(x + i % 3 - 1, y + i / 3 - 1, &from) : 1;
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += tapWeight * tap->light[channel];
+            light[channel] += tapWeight * tapArea * tap->light[channel] / tap->area;
         }
+        areas += tapWeight * tapArea;
         mass += tapWeight;
         counted += countedWeight(kernel, tapWeight, difference, width);
     }
     for (double& value : light) {
-        value /= counted;
+        value *= mass / (counted * std::max<double>(areas, constants::bankLeastWeight));
     }
     sum.add(weight, light, mass / counted);
 }
 
-void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, double depth) const {
+void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const {
     const TwinLevel<BlurredTexel>& blurred = blurred_[level];
-    const double width = texelWidth(level, depth);
+    const double width = texelWidth(level, from.depth);
+    const bool plain = from.smooth && level == 1;
     const double positionX = (x + 0.5) / (1 << level) - 0.5;
     const double positionY = (y + 0.5) / (1 << level) - 0.5;
     const int firstX = static_cast<int>(std::floor(positionX));
@@ -382,9 +412,9 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
         const BlurredTexel& tap = *blurred.at(tapX, tapY);
         double tapWeight = (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 == 1 ? fractionY : 1 - fractionY);
-        const double difference = tap.depth - depth;
+        const double difference = plain ? 0 : tap.depth - from.depth;
         const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
-        tapWeight *= tap.depth > 0 ? falloff(q) : 0;
+        tapWeight *= plain || tap.depth > 0 ? falloff(q) : 0;
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += tapWeight * tap.light[channel];
         }
@@ -393,7 +423,7 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         away += tapWeight * difference;
     }
     total = std::max<double>(total, constants::bankLeastWeight);
-    const double distance = away / (total * width);
+    const double distance = (away / total - from.offset) / width;
     const double share = falloff(distance * distance / constants::bankLevelAwayVariance);
     for (double& value : light) {
         value *= share / total;

@@ -54,6 +54,12 @@ public:
 
 private:
     struct Accumulator;
+    /// What a quad's pixels share when they read a level.
+    struct Standpoint {
+        double depth;  ///< mm, which depth weights are taken from
+        double offset; ///< mm, how far behind that the pixel is
+        bool smooth;   ///< the finest level has no depth weights
+    };
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
     void reduceLevel(int level);
@@ -63,7 +69,9 @@ private:
     void combineQuad(int quadX, int quadY, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
-    void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, double depth) const;
+    void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
+    double pixelArea(int x, int y, const std::array<int, 2>* from) const;
+    void weighByArea(int x, int y);
     double quadSlope(int x, int y, int dx, int dy) const;
     double countedWeight(double kernel, double weight, double depthDifference, double texelWidth) const;
 
