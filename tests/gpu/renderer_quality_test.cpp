@@ -1,5 +1,6 @@
-// The techniques against `brute` on what people look at: the gallery, its head from near by, and a scanned head where
-// there is one. PSNR over the subsurface pixels of the scattered light; the peak is the reference's largest value.
+// The techniques against `brute` on what people look at: the gallery, its bodies from near by, and a scanned head
+// and the Stanford dragon where they are. PSNR over the subsurface pixels of the scattered light; the peak is the
+// reference's largest value.
 #include "tests/gpu/support/renderer_scenes.hpp"
 
 #include "nacre/presets.hpp"
@@ -36,8 +37,11 @@ double psnr(const Pixels& image, const Pixels& reference, const Pixels& material
     return 10 * std::log10(peak * peak * static_cast<double>(count) / error);
 }
 
-/// `separable` is to have 38 dB, and `bank`, the default, no less than 38 dB either.
-void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const char* name) {
+/// What `bank`, the default, is to have. `separable` is to have 38 dB.
+constexpr double bankQuality = 45;
+
+void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const std::string& name,
+                   double leastOfBank = bankQuality) {
     renderer::RenderSettings settings;
     settings.width = 320;
     settings.height = 180;
@@ -53,36 +57,52 @@ void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const
         renderer.setEffect(settings);
         renderer.renderEffect();
         const double quality = psnr(renderer.read(Output::Scattered), reference, material);
-        std::printf("%s, %s: %.1f dB\n", name, technique == Technique::Bank ? "bank" : "separable", quality);
-        EXPECT_GE(quality, 38) << name;
+        const bool bank = technique == Technique::Bank;
+        std::printf("%s, %s: %.1f dB\n", name.c_str(), bank ? "bank" : "separable", quality);
+        EXPECT_GE(quality, bank ? leastOfBank : 38) << name;
     }
 }
 
-TEST_F(Quality, GalleryAndItsHead) {
-    const scene::Scene scene = scene::makeGallery(scene::GalleryLight::Front);
-    expectQuality(scene, scene.cameras.at(0), "gallery");
+const std::filesystem::path models = std::filesystem::path(NACRE_SOURCE_DIR) / "../shared/models";
+
+scene::Bounds boundsOf(const scene::Scene& scene, const std::string& name) {
+    scene::Bounds bounds;
     for (const scene::Instance& instance : scene.instances) {
-        if (instance.name != "head") {
-            continue;
-        }
-        scene::Bounds bounds;
         for (const scene::Vertex& vertex : scene.meshes.at(instance.mesh).vertices) {
             const glm::vec3 position(instance.transform * glm::vec4(vertex.position, 1));
-            bounds.low = glm::min(bounds.low, position);
-            bounds.high = glm::max(bounds.high, position);
+            bounds.low = instance.name == name ? glm::min(bounds.low, position) : bounds.low;
+            bounds.high = instance.name == name ? glm::max(bounds.high, position) : bounds.high;
         }
-        scene::Camera camera = scene.cameras.at(0);
-        camera.target = bounds.center();
-        camera.position = bounds.center() + glm::vec3(0, 0, 4 * bounds.radius());
-        camera.verticalFieldOfView = 0.5f;
-        expectQuality(scene, camera, "gallery's head");
-        return;
     }
-    FAIL() << "the gallery has no body called head";
+    return bounds;
+}
+
+/// Looks at the middle of the bounds from this direction, from so many of their radii away.
+scene::Camera lookAt(const scene::Bounds& bounds, const glm::vec3& from, float radii) {
+    scene::Camera camera;
+    camera.target = bounds.center();
+    camera.position = bounds.center() + radii * bounds.radius() * glm::normalize(from);
+    camera.verticalFieldOfView = 0.5f;
+    return camera;
+}
+
+TEST_F(Quality, GalleryAndItsBodies) {
+    const scene::Scene scene = scene::makeGallery(scene::GalleryLight::Front);
+    expectQuality(scene, scene.cameras.at(0), "gallery");
+    expectQuality(scene, lookAt(boundsOf(scene, "head"), {0, 0, 1}, 4), "gallery's head");
+    expectQuality(scene, lookAt(boundsOf(scene, "dragon"), {0, 0.1f, 1}, 2.5f), "gallery's dragon");
+    expectQuality(scene, lookAt(boundsOf(scene, "logo"), {0, 0.3f, 1}, 2.5f), "gallery's logo");
+    expectQuality(scene, lookAt(boundsOf(scene, "shell"), {0, 0.2f, 1}, 2.5f), "gallery's shell");
+    expectQuality(scene, lookAt(boundsOf(scene, "plant"), {0, 0.2f, 1}, 2.5f), "gallery's plant");
+}
+
+TEST_F(Quality, GalleryLitFromBehind) {
+    const scene::Scene scene = scene::makeGallery(scene::GalleryLight::Back);
+    expectQuality(scene, scene.cameras.at(0), "gallery from behind");
 }
 
 TEST_F(Quality, ScannedHead) {
-    const std::filesystem::path file = std::filesystem::path(NACRE_SOURCE_DIR) / "../shared/models/head/infinite_head.gltf";
+    const std::filesystem::path file = models / "head/infinite_head.gltf";
     if (!std::filesystem::exists(file)) {
         std::puts("the scanned head is not here");
         return;
@@ -90,6 +110,30 @@ TEST_F(Quality, ScannedHead) {
     scene::Scene scene = scene::load(file);
     scene::assignMaterial(scene, *findPreset("skin"));
     expectQuality(scene, scene.cameras.at(0), "scanned head");
+    expectQuality(scene, lookAt(scene::bounds(scene), {1, 0.1f, 0.2f}, 3), "scanned head's side");
+}
+
+TEST_F(Quality, Dragon) {
+    const std::filesystem::path file = models / "dragon/dragon_uv.glb";
+    if (!std::filesystem::exists(file)) {
+        std::puts("the Stanford dragon is not here");
+        return;
+    }
+    scene::Scene scene = scene::load(file);
+    const scene::Bounds bounds = scene::bounds(scene);
+    // Seen from the front, features lie one behind the other that are as small as jade's light goes far; a texel, which
+    // keeps one surface, then does less well.
+    struct Case {
+        const char* preset;
+        double leastFromFront;
+    };
+    for (const Case& c : {Case{"skin", bankQuality}, Case{"marble", 44.5}, Case{"jade", 41}}) {
+        scene::assignMaterial(scene, *findPreset(c.preset));
+        const std::string name = std::string(c.preset) + " dragon";
+        expectQuality(scene, scene.cameras.at(0), name);
+        expectQuality(scene, lookAt(bounds, {0, 0.1f, 1}, 2.2f), name + "'s side");
+        expectQuality(scene, lookAt(bounds, {-1, 0.1f, 0.15f}, 3), name + "'s front", c.leastFromFront);
+    }
 }
 
 } // namespace
