@@ -19,6 +19,7 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
     {.name = "nacre bank blurred pyramid", .bytes = bankBlurredBytes},
     {.name = "nacre bank blurred surfaces", .bytes = bankBlurredBytes},
     {.name = "nacre bank quads", .bytes = bankQuadBytes},
+    {.name = "nacre bank areas", .bytes = bankAreaBytes},
     {.name = "nacre bank tiles", .bytes = bankTileBytes},
 }};
 

@@ -22,6 +22,7 @@ enum class Intermediate : std::uint32_t {
     BankBlurred = intermediateBankBlurred,
     BankSurfaces = intermediateBankSurfaces,
     BankQuads = intermediateBankQuads,
+    BankAreas = intermediateBankAreas,
     BankTiles = intermediateBankTiles,
     Count
 };
@@ -64,6 +65,7 @@ struct Pass {
 VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent);
+VkDeviceSize bankAreaBytes(VkExtent2D maxExtent);
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent);
 /// Fills ScatterParameters::bankLevels for a render area (scatter_bank.cpp).
 void setBankLevels(ScatterParameters& parameters, VkExtent2D area);

@@ -65,12 +65,13 @@ void buildTable(const Material& material, const Profile& profile, std::span<std:
 
 constexpr IntermediateSet blurred = bit(Intermediate::BankBlurred) | bit(Intermediate::BankSurfaces);
 constexpr IntermediateSet quads = bit(Intermediate::BankQuads);
+constexpr IntermediateSet areas = bit(Intermediate::BankAreas);
 constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
 
 constexpr Pass passes[] = {
     {.name = "nacre bank reduce",
      .spirv = bank_reduce_spv,
-     .writes = bit(Intermediate::BankRaw) | quads | tiles,
+     .writes = bit(Intermediate::BankRaw) | quads | areas | tiles,
      .grid = nacre::effect::tiles<tileSize, tileSize>,
      .asksMaterials = true},
     {.name = "nacre bank blur",
@@ -81,7 +82,7 @@ constexpr Pass passes[] = {
      .asksMaterials = true},
     {.name = "nacre bank combine edge",
      .spirv = bank_combine_edge_spv,
-     .reads = blurred | quads | tiles,
+     .reads = blurred | quads | areas | tiles,
      .indirect = Intermediate::BankTiles,
      .indirectOffset = sizeof(BankDispatch),
      .asksMaterials = true},
@@ -110,6 +111,10 @@ VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent) {
     const VkExtent2D finest = levelExtent(maxExtent, 1);
     return VkDeviceSize{sizeof(uvec4)} * finest.width * finest.height;
+}
+
+VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
+    return bankQuadBytes(maxExtent) / sizeof(uvec4) * sizeof(std::uint32_t);
 }
 
 // The dispatches, then per tile its bits and, on either list, the places of its two regions.

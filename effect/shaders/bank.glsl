@@ -17,6 +17,9 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) 
     // 2x2 px each, as level 1 lies: depth; weights beside the middle of the full-resolution 3x3, x and y; materials.
     uvec4 quads[];
 };
+layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) buffer BankAreas {
+    uint quadAreas[]; // as quads: packAreas of the four pixels
+};
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth tiles, edge tiles
     uint tileEntries[]; // per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions, two a tile
@@ -126,6 +129,15 @@ float pixelStep(float before, float depth, float after) {
 float areaOf(float depth, vec4 around) {
     vec2 slope = vec2(pixelStep(around.x, depth, around.y), pixelStep(around.z, depth, around.w));
     return min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
+}
+
+// Areas in [1, bankLargestArea], each to within half a percent.
+uint packAreas(vec4 areas) {
+    return packUnorm4x8(log2(areas) / log2(bankLargestArea));
+}
+
+vec4 unpackAreas(uint areas) {
+    return exp2(log2(bankLargestArea) * unpackUnorm4x8(areas));
 }
 
 // e^−q, near enough, and 0 from q = 4 on.

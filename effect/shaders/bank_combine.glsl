@@ -29,6 +29,7 @@ const int fineRingCount = 2 * (finePitch + fineSize.y);
 // columns, then odd ones, so that neighbouring quads read neighbouring places.
 shared uvec2 pixelLights[2 * pairCount];
 shared float pixelDepths[isEdge ? 2 * pairCount : 1];
+shared float pixelAreas[isEdge ? 2 * pairCount : 1]; // of the surface, relative to one that faces the camera
 shared uint pixelMaterials[isEdge && separateMaterials ? 2 * pairCount : 1];
 shared uvec2 levelLights[levelTexelCount]; // as blurredLights
 shared uvec2 fineSurfaces[isEdge ? fineCount : 1]; // as blurredSurfaces
@@ -108,7 +109,7 @@ Fetched fetchPixel(ivec2 local) {
     return Fetched(texelFetch(irradianceImage, pixel, 0).rgb, isEdge ? viewZ(pixel) : 0.0);
 }
 
-void storePixel(ivec2 pixel, Fetched fetched, uint material) {
+void storePixel(ivec2 pixel, Fetched fetched, uint material, float area) {
     bool receives = material != 0u && (!isEdge || isValidZ(fetched.z));
     bool gives = receives && all(lessThan(abs(fetched.light), vec3(1e38)));
     vec3 light = min(fetched.light, vec3(maxHalf));
@@ -117,6 +118,7 @@ void storePixel(ivec2 pixel, Fetched fetched, uint material) {
     pixelLights[place] = gives ? words : uvec2(0u);
     if (isEdge) {
         pixelDepths[place] = receives ? -fetched.z : 0.0;
+        pixelAreas[place] = area;
     }
     if (isEdge && separateMaterials) {
         pixelMaterials[place] = material;
@@ -136,6 +138,7 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 fineTexel = (region >> 1) + texel;
     int fine = texelIndex(1, fineTexel);
     uvec4 quad = quads[fine];
+    uint areas = isEdge ? quadAreas[fine] : 0u;
     uvec2 fineLight = blurredLights[fine];
     uvec2 fineSurface = isEdge ? blurredSurfaces[fine] : uvec2(0u);
     ivec2 near = min(2 * fineTexel, last);
@@ -153,7 +156,9 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
     uvec2 coarseSurface = blurredSurfaces[coarse];
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     ivec2 ringPixel = clamp(region + ring, ivec2(0), last);
-    uvec4 ringQuad = quads[texelIndex(1, ringPixel >> 1)];
+    int ringQuadIndex = texelIndex(1, ringPixel >> 1);
+    uvec4 ringQuad = quads[ringQuadIndex];
+    uint ringAreas = isEdge ? quadAreas[ringQuadIndex] : 0u;
     Fetched ringFetched = fetchPixel(ringPixel);
     uint ringMaterial = ringPixel == region + ring ? quadMaterial(ringQuad, ringPixel) : 0u;
     if (hasFlag(flagAlbedo)) {
@@ -180,10 +185,11 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        storePixel(2 * texel + 1 + offset, own[i], quadMaterial(quad, offset));
+        storePixel(2 * texel + 1 + offset, own[i], quadMaterial(quad, offset), unpackAreas(areas)[i]);
     }
     if (thread < ringCount) {
-        storePixel(ring + 1, ringFetched, ringMaterial);
+        float ringArea = unpackAreas(ringAreas)[(ringPixel.x & 1) + 2 * (ringPixel.y & 1)];
+        storePixel(ring + 1, ringFetched, ringMaterial, ringArea);
     }
     return quad;
 }

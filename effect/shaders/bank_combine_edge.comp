@@ -6,23 +6,6 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// Of the surface at each pixel, relative to one that faces the camera; as pixelDepths.
-shared float pixelAreas[2 * pairCount];
-
-// From the pixels of the region and those around it alone.
-void findAreas(int thread) {
-    for (int index = thread; index < 2 * pairCount; index += threads) {
-        int pair = index % pairCount;
-        ivec2 pixel = ivec2(pair % pairPitch * 2 + index / pairCount, pair / pairPitch);
-        bvec4 inside = bvec4(pixel.x > 0, pixel.x < 2 * pairPitch - 1, pixel.y > 0, pixel.y < regionSize.y + 1);
-        vec4 around = vec4(inside.x ? pixelDepths[pixelPlace(pixel - ivec2(1, 0))] : 0.0,
-                           inside.y ? pixelDepths[pixelPlace(pixel + ivec2(1, 0))] : 0.0,
-                           inside.z ? pixelDepths[pixelPlace(pixel - ivec2(0, 1))] : 0.0,
-                           inside.w ? pixelDepths[pixelPlace(pixel + ivec2(0, 1))] : 0.0);
-        pixelAreas[index] = areaOf(pixelDepths[index], around);
-    }
-}
-
 vec4 lightAt(ivec2 pixel) {
     return unpackLight(pixelLights[pixelPlace(pixel)]);
 }
@@ -180,8 +163,6 @@ void main() {
     }
     barrier();
     uvec4 quadWords = loadRegion(group.region, thread, texel);
-    barrier();
-    findAreas(thread);
     barrier();
     group.quad = group.region + 2 * texel;
     group.first = 2 * texel + 1;

@@ -182,6 +182,7 @@ void main() {
     int index = texelIndex(1, tile * side + texel);
     rawTexels[index] = packed;
     quads[index] = quad;
+    quadAreas[index] = packAreas(max(vec4(pixels[0].area, pixels[1].area, pixels[2].area, pixels[3].area), 1.0));
     barrier();
     if (occupied != 0u) {
         for (int level = 2; level <= rawLevels; ++level) {

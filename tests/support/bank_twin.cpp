@@ -14,8 +14,7 @@ static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
               constants::bankBinCount == BankTable::binCount);
 
 constexpr int tileSize = 32;
-constexpr int regionWidth = 32; // of pass C's workgroups, px
-constexpr int regionHeight = 16;
+constexpr int regionHeight = 16; // of pass C's workgroups, which are as wide as a tile, px
 
 double falloff(double q) {
     return std::pow(std::max(0.0, 1 - q / 4), 4);
@@ -60,25 +59,16 @@ double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* 
 
 } // namespace
 
-// Area of a pixel's surface relative to one that faces the camera. A workgroup of pass C knows the pixels of its region
-// and those around it: `from` is one of its pixels.
-double BankTwin::pixelArea(int x, int y, const std::array<int, 2>* from) const {
-    const auto seen = [&](int seenX, int seenY) -> const RawTexel* {
-        if (from != nullptr) {
-            const int firstX = (*from)[0] / regionWidth * regionWidth - 1;
-            const int firstY = (*from)[1] / regionHeight * regionHeight - 1;
-            if (seenX < firstX || seenY < firstY || seenX >= firstX + regionWidth + 2 ||
-                seenY >= firstY + regionHeight + 2) {
-                return nullptr;
-            }
-        }
-        const RawTexel* pixel = raw_[0].at(seenX, seenY);
+// Area of a pixel's surface relative to one that faces the camera.
+double BankTwin::pixelArea(int x, int y) const {
+    const auto neighbor = [&](int dx, int dy) -> const RawTexel* {
+        const RawTexel* pixel = raw_[0].at(x + dx, y + dy);
         return pixel != nullptr && pixel->mass > 0 ? pixel : nullptr;
     };
     const RawTexel& pixel = *raw_[0].at(x, y);
     const double width = texelWidth(0, pixel.depth);
-    const double stepX = pixelStep(seen(x - 1, y), pixel, seen(x + 1, y), width);
-    const double stepY = pixelStep(seen(x, y - 1), pixel, seen(x, y + 1), width);
+    const double stepX = pixelStep(neighbor(-1, 0), pixel, neighbor(1, 0), width);
+    const double stepY = pixelStep(neighbor(0, -1), pixel, neighbor(0, 1), width);
     return std::min<double>(std::hypot(1, stepX / width, stepY / width), constants::bankLargestArea);
 }
 
@@ -121,13 +111,16 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
     for (int tileY = 0; tileY < tilesY_; ++tileY) {
         for (int tileX = 0; tileX < tilesX_; ++tileX) {
             const bool empty = raw_[5].at(tileX, tileY)->mass <= 0;
-            tileKinds_.push_back(empty ? 0 : isSmooth(tileX, tileY) ? 1 : 2);
+            for (const int half : {0, 1}) {
+                regionKinds_.push_back(empty ? 0 : isSmooth(tileX, tileY, half) ? 1 : 2);
+            }
         }
     }
     result_ = scene.irradiance;
     for (int y = 0; y < scene.height; y += 2) {
         for (int x = 0; x < scene.width; x += 2) {
-            combineQuad(x, y, tileKinds_[y / tileSize * tilesX_ + x / tileSize] == 1);
+            const int tile = y / tileSize * tilesX_ + x / tileSize;
+            combineQuad(x, y, regionKinds_[2 * tile + y / regionHeight % 2] == 1);
         }
     }
 }
@@ -137,15 +130,15 @@ void BankTwin::weighByArea(int x, int y) {
     if (pixel.mass <= 0) {
         return;
     }
-    pixel.area = pixelArea(x, y, nullptr);
+    pixel.area = pixelArea(x, y);
     for (double& value : pixel.light) {
         value *= pixel.area;
     }
 }
 
 double BankTwin::smoothShare() const {
-    const auto smooth = std::count(tileKinds_.begin(), tileKinds_.end(), 1);
-    const auto edge = std::count(tileKinds_.begin(), tileKinds_.end(), 2);
+    const auto smooth = std::count(regionKinds_.begin(), regionKinds_.end(), 1);
+    const auto edge = std::count(regionKinds_.begin(), regionKinds_.end(), 2);
     return static_cast<double>(smooth) / static_cast<double>(std::max<std::ptrdiff_t>(smooth + edge, 1));
 }
 
@@ -249,14 +242,18 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
     return result;
 }
 
-// The tile's texels of level 1 and two more around agree in depth with their neighbours; so do then the coarser ones.
-bool BankTwin::isSmooth(int tileX, int tileY) const {
+// The texels of level 1 of a tile's upper or lower half and two more around agree in depth with their neighbours; so do
+// then the coarser ones.
+bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
     constexpr int halo = 2;
-    const int count = tileSize / 2;
-    const int lastX = (tileX + 1) * count + halo - 1;
-    const int lastY = (tileY + 1) * count + halo - 1;
-    for (int y = tileY * count - halo; y <= lastY; ++y) {
-        for (int x = tileX * count - halo; x <= lastX; ++x) {
+    const int width = tileSize / 2;
+    const int height = regionHeight / 2;
+    const int firstX = tileX * width - halo;
+    const int firstY = (2 * tileY + half) * height - halo;
+    const int lastX = firstX + width + 2 * halo - 1;
+    const int lastY = firstY + height + 2 * halo - 1;
+    for (int y = firstY; y <= lastY; ++y) {
+        for (int x = firstX; x <= lastX; ++x) {
             const RawTexel* texel = raw_[1].at(x, y);
             if (texel == nullptr || texel->mass <= 0) {
                 continue;
@@ -362,7 +359,6 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
 
 void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
     constexpr double binomial[] = {0.25, 0.5, 0.25};
-    const std::array<int, 2> from{x, y};
     double areas = 0;
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
@@ -379,11 +375,10 @@ void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) cons
         const double difference = tap->depth - depth;
         const double tapWeight =
             kernel * falloff(difference * difference / (constants::bankPixelDepthVariance * width * width));
-        const double tapArea = settings_.areaWeights ? pixelArea(x + i % 3 - 1, y + i / 3 - 1, &from) : 1;
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += tapWeight * tapArea * tap->light[channel] / tap->area;
+            light[channel] += tapWeight * tap->light[channel];
         }
-        areas += tapWeight * tapArea;
+        areas += tapWeight * tap->area;
         mass += tapWeight;
         counted += countedWeight(kernel, tapWeight, difference, width);
     }

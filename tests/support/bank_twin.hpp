@@ -49,7 +49,7 @@ public:
     const TwinLevel<BlurredTexel>& blurred(int level) const { return blurred_[level]; }
     /// Pass C: the scattered irradiance of every pixel.
     const std::vector<Rgb>& result() const { return result_; }
-    /// Share of the 32x32 px tiles with subsurface pixels that are combined as smooth.
+    /// Share of the 32x16 px regions in tiles with subsurface pixels that are combined as smooth.
     double smoothShare() const;
 
 private:
@@ -65,12 +65,12 @@ private:
     void reduceLevel(int level);
     void blurLevel(int level);
     BlurredTexel blurTexel(int level, int x, int y) const;
-    bool isSmooth(int tileX, int tileY) const;
+    bool isSmooth(int tileX, int tileY, int half) const;
     void combineQuad(int quadX, int quadY, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
-    double pixelArea(int x, int y, const std::array<int, 2>* from) const;
+    double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
     double quadSlope(int x, int y, int dx, int dy) const;
     double countedWeight(double kernel, double weight, double depthDifference, double texelWidth) const;
@@ -82,7 +82,7 @@ private:
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurred_;
     int tilesX_ = 0;
     int tilesY_ = 0;
-    std::vector<int> tileKinds_; ///< 0 empty, 1 smooth, 2 edge
+    std::vector<int> regionKinds_; ///< two a tile, 32x16 px: 0 empty, 1 smooth, 2 edge
     std::vector<Rgb> result_;
 };
 
