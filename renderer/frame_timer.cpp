@@ -14,7 +14,8 @@ FrameTimer::FrameTimer(const Gpu& gpu)
     pool_ = vk::raii::QueryPool(gpu.device, {.queryType = vk::QueryType::eTimestamp, .queryCount = maxQueries});
 }
 
-void FrameTimer::begin(const vk::raii::CommandBuffer& commandBuffer) {
+void FrameTimer::begin(const vk::raii::CommandBuffer& commandBuffer, Timing timing) {
+    timing_ = timing;
     queryCount_ = 0;
     passes_.clear();
     commandBuffer.resetQueryPool(*pool_, 0, maxQueries);
@@ -22,11 +23,22 @@ void FrameTimer::begin(const vk::raii::CommandBuffer& commandBuffer) {
 }
 
 void FrameTimer::endPass(const vk::raii::CommandBuffer& commandBuffer, const std::string& name) {
-    passes_.push_back({name, queryCount_ - 1, queryCount_});
-    writeTimestamp(commandBuffer);
+    if (timing_ == Timing::Passes) {
+        passes_.push_back({name, queryCount_ - 1, queryCount_});
+        writeTimestamp(commandBuffer);
+    }
 }
 
-std::uint32_t FrameTimer::reserve(std::span<const char* const> passNames, const std::string& prefix) {
+void FrameTimer::end(const vk::raii::CommandBuffer& commandBuffer) {
+    if (timing_ == Timing::Whole) {
+        writeTimestamp(commandBuffer);
+    }
+}
+
+NacreTimestamps FrameTimer::reserve(std::span<const char* const> passNames, const std::string& prefix) {
+    if (timing_ == Timing::Whole) {
+        return {};
+    }
     const std::uint32_t first = queryCount_;
     for (const char* name : passNames) {
         const std::uint32_t begin = queryCount_ == first ? first - 1 : queryCount_;
@@ -36,7 +48,7 @@ std::uint32_t FrameTimer::reserve(std::span<const char* const> passNames, const 
     if (queryCount_ > maxQueries) {
         throw RendererError("a frame has more passes than can be timed");
     }
-    return first;
+    return {*pool_, first};
 }
 
 void FrameTimer::writeTimestamp(const vk::raii::CommandBuffer& commandBuffer) {

@@ -1,6 +1,7 @@
 // Timestamps between the passes of a frame. Internal to the renderer.
 #pragma once
 
+#include "nacre/nacre.h"
 #include "renderer/device_internal.hpp"
 #include "renderer/renderer.hpp"
 
@@ -13,14 +14,16 @@ class FrameTimer {
 public:
     explicit FrameTimer(const Gpu& gpu);
 
-    void begin(const vk::raii::CommandBuffer& commandBuffer);
+    /// Starts a frame, whose passes are timed if the frame's timing says so.
+    void begin(const vk::raii::CommandBuffer& commandBuffer, Timing timing);
     /// Ends the pass that began at the last timestamp.
     void endPass(const vk::raii::CommandBuffer& commandBuffer, const std::string& name);
-    vk::QueryPool pool() const { return *pool_; }
+    /// Ends the frame.
+    void end(const vk::raii::CommandBuffer& commandBuffer);
     /// Sets queries aside for passes that somebody else times: one before the first and one after each. The first pass
     /// counts from the timestamp before all of them, so that barriers belong to it; besides, Mesa's software device
     /// writes a timestamp late that a dispatch follows without a barrier.
-    std::uint32_t reserve(std::span<const char* const> passNames, const std::string& prefix);
+    NacreTimestamps reserve(std::span<const char* const> passNames, const std::string& prefix);
     /// Fills the report's passes and total.
     void read(FrameReport& report) const;
 
@@ -36,6 +39,7 @@ private:
     double microsecondsPerTick_ = 0;
     std::uint64_t validBits_ = 0;
     vk::raii::QueryPool pool_ = nullptr;
+    Timing timing_ = Timing::Passes;
     std::uint32_t queryCount_ = 0;
     std::vector<Pass> passes_;
 };

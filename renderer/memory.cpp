@@ -2,16 +2,27 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace nacre::renderer {
 namespace {
 
-std::uint32_t findMemoryType(const Gpu& gpu, std::uint32_t allowed, vk::MemoryPropertyFlags needed,
-                             const std::string& what) {
+std::optional<std::uint32_t> findMemoryType(const Gpu& gpu, std::uint32_t allowed, vk::MemoryPropertyFlags needed) {
     for (std::uint32_t i = 0; i < gpu.memoryProperties.memoryTypeCount; ++i) {
         if ((allowed >> i & 1u) != 0 && (gpu.memoryProperties.memoryTypes[i].propertyFlags & needed) == needed) {
             return i;
+        }
+    }
+    return std::nullopt;
+}
+
+// With `wanted` too if the device has such memory.
+std::uint32_t chooseMemoryType(const Gpu& gpu, std::uint32_t allowed, vk::MemoryPropertyFlags needed,
+                               vk::MemoryPropertyFlags wanted, const std::string& what) {
+    for (const vk::MemoryPropertyFlags flags : {needed | wanted, needed}) {
+        if (const auto type = findMemoryType(gpu, allowed, flags)) {
+            return *type;
         }
     }
     throw RendererError("the Vulkan device has no memory that suits the " + what);
@@ -52,9 +63,9 @@ void checkLimits(const Gpu& gpu, const vk::ImageCreateInfo& info, const std::str
 } // namespace
 
 Memory::Memory(Gpu& gpu, const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
-               const std::string& what)
+               const std::string& what, vk::MemoryPropertyFlags wanted)
     : bytes_(requirements.size) {
-    const std::uint32_t type = findMemoryType(gpu, requirements.memoryTypeBits, needed, what);
+    const std::uint32_t type = chooseMemoryType(gpu, requirements.memoryTypeBits, needed, wanted, what);
     const std::uint32_t heap = gpu.memoryProperties.memoryTypes[type].heapIndex;
     const std::uint64_t heapBytes = gpu.memoryProperties.memoryHeaps[heap].size;
     std::uint64_t& used = gpu.allocatedBytes[heap];
@@ -93,9 +104,10 @@ Buffer::Buffer(Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::Buffe
     const vk::MemoryPropertyFlags host = Property::eHostVisible | Property::eHostCoherent;
     buffer_ = vk::raii::Buffer(gpu.device, {.size = bytes, .usage = usage});
     gpu.name(buffer_, name);
-    memory_ = Memory(gpu, buffer_.getMemoryRequirements(), place == Place::Host ? host : Property::eDeviceLocal, name);
+    memory_ = Memory(gpu, buffer_.getMemoryRequirements(), place == Place::Device ? Property::eDeviceLocal : host, name,
+                     place == Place::ReadBack ? Property::eHostCached : vk::MemoryPropertyFlags());
     buffer_.bindMemory(*memory_.handle(), 0);
-    if (place == Place::Host) {
+    if (place != Place::Device) {
         mapped_ = static_cast<std::byte*>(memory_.handle().mapMemory(0, VK_WHOLE_SIZE));
     }
 }

@@ -12,9 +12,10 @@ namespace nacre::renderer {
 class Memory {
 public:
     Memory() = default;
-    /// Throws RendererError naming `what` and its size when the heap has no room for it.
+    /// With the properties `needed`, and those `wanted` if there is such memory. Throws RendererError naming `what` and
+    /// its size when the heap has no room for it.
     Memory(Gpu& gpu, const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
-           const std::string& what);
+           const std::string& what, vk::MemoryPropertyFlags wanted = {});
     ~Memory();
     Memory(Memory&& other) noexcept;
     Memory& operator=(Memory&& other) noexcept;
@@ -30,7 +31,11 @@ private:
 /// A buffer; `mapped` is null unless it is visible to the host.
 class Buffer {
 public:
-    enum class Place { Device, Host };
+    enum class Place {
+        Device,
+        Host,    ///< for the host to write
+        ReadBack ///< for the host to read: cached where the device has such memory
+    };
 
     Buffer() = default;
     Buffer(Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::BufferUsageFlags usage, Place place);

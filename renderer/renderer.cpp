@@ -94,11 +94,13 @@ struct Renderer::Implementation {
     Implementation(Gpu& device, const scene::Scene& scene, const RenderSettings& renderSettings);
 
     /// Records one frame; the command buffer's previous use of `frameIndex` must have finished.
-    void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex, const View& view);
+    void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex, const View& view,
+                Timing timing);
     void recordEffect(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex, const View& view);
+    void recordCopy(const vk::raii::CommandBuffer& commandBuffer);
     template <typename Recorder>
     void recordPass(const vk::raii::CommandBuffer& commandBuffer, const char* name, const Recorder& recorder);
-    void render(const scene::Camera& camera);
+    void render(const scene::Camera& camera, Timing timing);
     void renderEffect();
     template <typename Recorder> void submit(const Recorder& recorder);
     void fillReport();
@@ -183,10 +185,10 @@ void Renderer::Implementation::recordPass(const vk::raii::CommandBuffer& command
 }
 
 void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex,
-                                      const View& view) {
+                                      const View& view, Timing timing) {
     const auto pass = [&](const char* name, const auto& recorder) { recordPass(commandBuffer, name, recorder); };
     const Compose::Settings look{settings.scatter, settings.transmit, exposure, settings.samples, settings.dither};
-    timer.begin(commandBuffer);
+    timer.begin(commandBuffer, timing);
     pass("shadow maps", [&] { shadowMaps.record(commandBuffer, scene); });
     pass("G-buffer", [&] { gbuffer.record(commandBuffer, scene, view); });
     pass("ambient occlusion", [&] { occlusion.record(commandBuffer, occlusionRadius * sceneBounds.radius()); });
@@ -194,6 +196,10 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
     recordEffect(commandBuffer, frameIndex, view);
     pass("compose", [&] { compose.recordRadiance(commandBuffer, look); });
     pass("tone map", [&] { compose.recordColor(commandBuffer, look); });
+    timer.end(commandBuffer);
+    if (timing == Timing::Passes) {
+        recordCopy(commandBuffer);
+    }
 }
 
 void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex,
@@ -208,6 +214,9 @@ void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& comma
         const Label label(gpu, commandBuffer, "scatter");
         subsurface.scatter(commandBuffer, frame, lighting.irradiance(), settings);
     }
+}
+
+void Renderer::Implementation::recordCopy(const vk::raii::CommandBuffer& commandBuffer) {
     if (copyFloor) {
         recordPass(commandBuffer, "copy", [&] { copyFloor->record(commandBuffer); });
     }
@@ -223,11 +232,11 @@ template <typename Recorder> void Renderer::Implementation::submit(const Recorde
     fillReport();
 }
 
-void Renderer::Implementation::render(const scene::Camera& camera) {
+void Renderer::Implementation::render(const scene::Camera& camera, Timing timing) {
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     const View view = makeView(camera, aspect, sceneBounds);
     rendered.reset();
-    submit([&](const vk::raii::CommandBuffer& commandBuffer) { record(commandBuffer, 0, view); });
+    submit([&](const vk::raii::CommandBuffer& commandBuffer) { record(commandBuffer, 0, view, timing); });
     rendered = view;
 }
 
@@ -236,8 +245,9 @@ void Renderer::Implementation::renderEffect() {
         throw RendererError("the effect cannot be done again before a frame has been rendered");
     }
     submit([&](const vk::raii::CommandBuffer& commandBuffer) {
-        timer.begin(commandBuffer);
+        timer.begin(commandBuffer, Timing::Passes);
         recordEffect(commandBuffer, 0, *rendered);
+        recordCopy(commandBuffer);
     });
 }
 
@@ -264,8 +274,8 @@ Renderer::Renderer(Device& device, const scene::Scene& scene, const RenderSettin
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 
-void Renderer::render(const scene::Camera& camera) {
-    guard([&] { implementation_->render(camera); });
+void Renderer::render(const scene::Camera& camera, Timing timing) {
+    guard([&] { implementation_->render(camera, timing); });
 }
 
 Pixels Renderer::read(Output output) const {

@@ -53,6 +53,12 @@ struct RenderSettings : EffectSettings {
     bool copyFloor = false;
 };
 
+/// What the timestamps of a frame are written around.
+enum class Timing {
+    Passes, ///< every pass
+    Whole   ///< the frame: none in between, which could keep passes from overlapping; the pass "copy" is left out
+};
+
 struct PassTime {
     std::string name;
     double microseconds = 0;
@@ -97,7 +103,7 @@ public:
     Renderer(Renderer&&) noexcept;
 
     /// Draws one frame from `camera` and waits for it.
-    void render(const scene::Camera& camera);
+    void render(const scene::Camera& camera, Timing timing = Timing::Passes);
     /// Does the last frame's effect (and copy) again on its images, and waits for it; the report then has only those
     /// passes.
     void renderEffect();

@@ -204,7 +204,7 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     info.thesisTransmittance = settings.thesisTransmittance;
     info.transmitted = convert(transmitted_);
     info.thicknessOut = convert(thickness_);
-    info.timestamps = {frame.timer.pool(), frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ")};
+    info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ");
     check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
 }
 
@@ -244,7 +244,7 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     info.normal = convert(normal);
     info.albedo = convert(albedo);
     info.scattered = convert(scattered_);
-    info.timestamps = {frame.timer.pool(), frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ")};
+    info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ");
     check(nacreCmdScatter(context_.get(), *commandBuffer, &info));
 }
 

@@ -85,7 +85,8 @@ void uploadImage(Gpu& gpu, Image& image, std::span<const std::byte> pixels, cons
 std::vector<std::byte> downloadImage(Gpu& gpu, Image& image) {
     const vk::Extent2D extent = image.info().extent;
     const std::size_t bytes = std::size_t{extent.width} * extent.height * pixelBytes(image.info().format);
-    const Buffer staging(gpu, "read-back buffer", bytes, vk::BufferUsageFlagBits::eTransferDst, Buffer::Place::Host);
+    const Buffer staging(gpu, "read-back buffer", bytes, vk::BufferUsageFlagBits::eTransferDst,
+                         Buffer::Place::ReadBack);
     gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
         prepare(commandBuffer, {{image, usage::transferRead}});
         commandBuffer.copyImageToBuffer(image.handle(), vk::ImageLayout::eTransferSrcOptimal, staging.handle(),

@@ -11,6 +11,8 @@ namespace {
 
 /// Most pixels of a texture (512 MiB as RGBA).
 constexpr std::uint64_t maxTexturePixels = std::uint64_t{1} << 27;
+/// Its sizes have 16 bits.
+constexpr std::uint32_t maxJpegSide = 65535;
 
 void appendBytes(void* context, void* data, int size) {
     auto& bytes = *static_cast<std::vector<std::uint8_t>*>(context);
@@ -18,23 +20,45 @@ void appendBytes(void* context, void* data, int size) {
     bytes.insert(bytes.end(), begin, begin + size);
 }
 
+// Throws unless the pixels fill a picture that the encoder can count the bytes of.
+void checkPixels(const std::filesystem::path& file, const char* kind, std::uint32_t width, std::uint32_t height,
+                 int channels, std::span<const std::uint8_t> pixels) {
+    const std::uint64_t size = std::uint64_t{width} * height * static_cast<std::uint64_t>(channels);
+    if (size == 0 || size != pixels.size() || size > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
+        throw SceneError(file.string() + ": cannot write a " + kind + " of " + std::to_string(width) + " x " +
+                         std::to_string(height) + " pixels from " + std::to_string(pixels.size()) + " bytes");
+    }
+}
+
 } // namespace
 
 void writePng(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height, int channels,
               std::span<const std::uint8_t> pixels) {
-    const std::uint64_t size = std::uint64_t{width} * height * static_cast<std::uint64_t>(channels);
     if (channels != 3 && channels != 4) {
         throw SceneError(file.string() + ": a PNG has 3 or 4 channels, not " + std::to_string(channels));
     }
-    if (size == 0 || size != pixels.size() || size > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
-        throw SceneError(file.string() + ": cannot write a PNG of " + std::to_string(width) + " x " +
-                         std::to_string(height) + " pixels from " + std::to_string(pixels.size()) + " bytes");
-    }
+    checkPixels(file, "PNG", width, height, channels, pixels);
     std::vector<std::uint8_t> bytes;
     const int stride = static_cast<int>(width) * channels;
     if (stbi_write_png_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), channels,
                                pixels.data(), stride) == 0) {
         throw SceneError(file.string() + ": the PNG encoder ran out of memory");
+    }
+    writeFileAtomically(file, bytes);
+}
+
+void writeJpeg(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+               std::span<const std::uint8_t> pixels, int quality) {
+    constexpr int channels = 3;
+    checkPixels(file, "JPEG", width, height, channels, pixels);
+    if (std::max(width, height) > maxJpegSide) {
+        throw SceneError(file.string() + ": a JPEG's sides are at most " + std::to_string(maxJpegSide) +
+                         " pixels long, not " + std::to_string(std::max(width, height)));
+    }
+    std::vector<std::uint8_t> bytes;
+    if (stbi_write_jpg_to_func(appendBytes, &bytes, static_cast<int>(width), static_cast<int>(height), channels,
+                               pixels.data(), quality) == 0) {
+        throw SceneError(file.string() + ": the JPEG encoder refused the picture");
     }
     writeFileAtomically(file, bytes);
 }

@@ -1,4 +1,4 @@
-// Image files: PNG and EXR out; PNG, JPEG, HDR and EXR in. Files appear complete or not at all.
+// Image files: PNG, JPEG and EXR out; PNG, JPEG, HDR and EXR in. Files appear complete or not at all.
 // Every function throws SceneError with one sentence that names the file.
 #pragma once
 
@@ -15,6 +15,10 @@ inline constexpr std::uint32_t maxImageSide = 16384;
 /// Writes 8-bit RGB(A) (channels 3 or 4), row 0 at the top, already sRGB encoded.
 void writePng(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height, int channels,
               std::span<const std::uint8_t> pixels);
+
+/// Writes 8-bit RGB, row 0 at the top, already sRGB encoded, with losses. quality: [1 … 100].
+void writeJpeg(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+               std::span<const std::uint8_t> pixels, int quality = 90);
 
 /// How writeExr stores a channel: 16-bit half (relative precision 2⁻¹¹, up to 65504) or 32-bit float.
 enum class ExrPrecision { Half, Float };

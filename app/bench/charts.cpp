@@ -5,6 +5,7 @@
 #include "app/bench/thesis.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -14,7 +15,7 @@ namespace {
 constexpr SeriesText seriesTexts[] = {
     {"experiment 1, front", "Experiment 1, front-lit (thesis, figure 4.3)",
      "Both effects together against the number of layers; kernel of 11 weights. The thesis's text states no times for "
-     "this figure.",
+     "this figure. Here layers are summed when a material is set, not while a pixel is drawn.",
      false},
     {"experiment 1, back", "Experiment 1, back-lit (thesis, figure 4.3)",
      "Both effects together against the number of layers, the lights behind the bodies.", false},
@@ -23,7 +24,10 @@ constexpr SeriesText seriesTexts[] = {
      "1920x1080; techniques whose radius is in millimetres get the width that this radius stands for.",
      false},
     {"experiment 3", "Experiment 3: back-lit translucency (thesis, figure 4.7)",
-     "Translucency alone against the number of layers. The thesis's text states no times for this figure.", false},
+     "Translucency alone against the number of layers. The thesis's text states no times for this figure, but that its "
+     "shader adds up the layers of every pixel; here they are added up when a material is set, into a table over "
+     "thickness.",
+     false},
     {"resolution", "Resolution", "The same view at growing picture sizes.", false},
     {"coverage", "Coverage", "The share of the picture that has a subsurface material.", false},
     {"footprint", "Footprint", "How far light travels on the picture: the rms radius of the widest channel.", true},
@@ -33,8 +37,12 @@ constexpr SeriesText seriesTexts[] = {
     {"triangles", "Triangles", "Triangles of the body. Only the frame's own passes see them.", true},
 };
 
-const SeriesText paretoText{"pareto", "Error against time",
-                            "Up is closer to the brute-force reference, left is faster.", false};
+const SeriesText paretoText{
+    "pareto", "Error against time",
+    "Up is closer to the brute-force reference, left is faster. Numbers are settings: radius in "
+    "texels (thesis), samples (burley), and for techniques without a setting of their own the "
+    "share of the picture's pixels that are rendered, in %, enlarged afterwards.",
+    false};
 
 // From this on a plot is in milliseconds, µs.
 constexpr double millisecondsFrom = 10'000;
@@ -138,33 +146,44 @@ std::vector<std::vector<const Measurement*>> grouped(const std::vector<const Mea
     return groups;
 }
 
-Chart paretoChart(const Results& results, const std::vector<const Measurement*>& measurements) {
-    const Measurement& any = *measurements.front();
-    Chart chart = chartOf(results, measurements, any.view + ", " + formatSize(any.width, any.height));
-    chart.sets.pop_back();
-    chart.logX = true;
-    const auto place = [](ChartPoint& point, const Measurement& measurement) {
-        const double psnr = measurement.error->psnr;
-        point = {measurement.effect.median, psnr, psnr, psnr, formatNumber(measurement.value)};
-    };
-    for (ChartSet& set : chart.sets) {
-        std::size_t next = 0;
-        for (const Measurement* measurement : measurements) {
-            if (measurement->technique == set.name) {
-                place(set.points[next++], *measurement);
-            }
-        }
-        set.joined = false;
+// The one with the most pixels: settings that lower the resolution have fewer.
+const Measurement& largestOf(const std::vector<const Measurement*>& measurements) {
+    return **std::max_element(measurements.begin(), measurements.end(), [](const Measurement* a, const Measurement* b) {
+        return std::uint64_t{a->width} * a->height < std::uint64_t{b->width} * b->height;
+    });
+}
+
+double geometricMean(const std::vector<const Measurement*>& measurements, double Summary::*member) {
+    double sum = 0;
+    for (const Measurement* measurement : measurements) {
+        sum += std::log(measurement->effect.*member);
     }
-    ChartSet frontier{.name = "not beaten in both", .kind = ChartSetKind::Frontier};
-    for (const Measurement* measurement : paretoFrontier(measurements)) {
-        place(frontier.points.emplace_back(), *measurement);
-        frontier.points.back().label.clear();
+    return std::exp(sum / static_cast<double>(measurements.size()));
+}
+
+double mean(const std::vector<const Measurement*>& measurements, double ImageError::*member) {
+    double sum = 0;
+    for (const Measurement* measurement : measurements) {
+        sum += *measurement->error.*member;
     }
-    chart.sets.push_back(std::move(frontier));
-    chart.xLabel = "time of the effect (µs)";
-    chart.yLabel = "PSNR against brute (dB)";
-    return chart;
+    return sum / static_cast<double>(measurements.size());
+}
+
+// One setting over all of `measurements`.
+Measurement average(const std::vector<const Measurement*>& measurements) {
+    Measurement result = *measurements.front();
+    result.view = "mean of " + std::to_string(measurements.size()) + " pictures";
+    result.footprint = 0;
+    for (double Summary::*member : {&Summary::median, &Summary::p5, &Summary::p95, &Summary::low, &Summary::high}) {
+        result.effect.*member = geometricMean(measurements, member);
+    }
+    for (double ImageError::*member : {&ImageError::psnr, &ImageError::relMse, &ImageError::energyRatio}) {
+        *result.error.*member = mean(measurements, member);
+    }
+    for (const Measurement* measurement : measurements) {
+        result.noise = std::max(result.noise, measurement->noise);
+    }
+    return result;
 }
 
 } // namespace
@@ -211,17 +230,69 @@ std::vector<std::vector<const Measurement*>> paretoGroups(const Results& results
             withError.push_back(&measurement);
         }
     }
-    return grouped(withError, [](const Measurement& measurement) {
-        return std::tuple(measurement.view, measurement.width, measurement.height);
-    });
+    return grouped(withError, [](const Measurement& measurement) { return measurement.series; });
 }
 
-std::vector<Chart> paretoCharts(const Results& results) {
-    std::vector<Chart> charts;
-    for (const auto& group : paretoGroups(results)) {
-        charts.push_back(paretoChart(results, group));
+std::string describeParetoGroup(const std::vector<const Measurement*>& group) {
+    const Measurement& largest = largestOf(group);
+    const std::string footprint = largest.footprint > 0 ? ", footprint " + formatNumber(largest.footprint) + " px" : "";
+    return largest.view + ", " + formatSize(largest.width, largest.height) + footprint;
+}
+
+Chart paretoChart(const Results& results, const std::vector<const Measurement*>& group) {
+    Chart chart = chartOf(results, group, describeParetoGroup(group));
+    chart.sets.pop_back();
+    chart.logX = true;
+    const auto place = [](ChartPoint& point, const Measurement& measurement) {
+        const double psnr = measurement.error->psnr;
+        point = {measurement.effect.median, psnr, psnr, psnr, formatNumber(measurement.value)};
+    };
+    for (ChartSet& set : chart.sets) {
+        std::size_t next = 0;
+        for (const Measurement* measurement : group) {
+            if (measurement->technique == set.name) {
+                place(set.points[next++], *measurement);
+            }
+        }
     }
-    return charts;
+    ChartSet frontier{.name = "not beaten in both", .kind = ChartSetKind::Frontier};
+    for (const Measurement* measurement : paretoFrontier(group)) {
+        place(frontier.points.emplace_back(), *measurement);
+        frontier.points.back().label.clear();
+    }
+    chart.sets.push_back(std::move(frontier));
+    chart.xLabel = "time of the effect (µs)";
+    chart.yLabel = "PSNR against brute (dB)";
+    return chart;
+}
+
+std::vector<ParetoMean> paretoMeans(const Results& results) {
+    // By the size of the group's picture, then by setting.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Measurement*>> sizes;
+    for (const auto& group : paretoGroups(results)) {
+        const Measurement& largest = largestOf(group);
+        auto& all = sizes[{largest.width, largest.height}];
+        all.insert(all.end(), group.begin(), group.end());
+    }
+    std::vector<ParetoMean> means;
+    for (const auto& [size, measurements] : sizes) {
+        ParetoMean& mean = means.emplace_back();
+        const auto settings = grouped(measurements, [](const Measurement& measurement) {
+            return std::pair(measurement.technique, measurement.value);
+        });
+        for (const auto& setting : settings) {
+            mean.push_back(average(setting));
+        }
+    }
+    return means;
+}
+
+std::vector<const Measurement*> pointersTo(const ParetoMean& mean) {
+    std::vector<const Measurement*> pointers;
+    for (const Measurement& measurement : mean) {
+        pointers.push_back(&measurement);
+    }
+    return pointers;
 }
 
 std::vector<const Measurement*> paretoFrontier(const std::vector<const Measurement*>& measurements) {

@@ -53,13 +53,21 @@ SeriesText describeSeries(std::string_view series);
 /// holds its stated line.
 std::vector<Chart> chartsOfSeries(const Results& results, const std::string& series);
 
-/// PSNR against time: a plot for each view and picture size of the measurements that have an error.
-std::vector<Chart> paretoCharts(const Results& results);
-
-/// Those measurements of one view and size that no other beats in both time and PSNR, by time.
-std::vector<const Measurement*> paretoFrontier(const std::vector<const Measurement*>& measurements);
-
-/// The measurements that have an error, one group for each view and picture size.
+/// The measurements that have an error, one group for each series: one view, picture size and footprint.
 std::vector<std::vector<const Measurement*>> paretoGroups(const Results& results);
+
+/// "gallery, front, 1920x1080, footprint 12 px"
+std::string describeParetoGroup(const std::vector<const Measurement*>& group);
+
+/// Every setting of one picture size over all views and footprints: geometric mean of the times, mean of the errors.
+using ParetoMean = std::vector<Measurement>;
+std::vector<ParetoMean> paretoMeans(const Results& results);
+std::vector<const Measurement*> pointersTo(const ParetoMean& mean);
+
+/// PSNR against time.
+Chart paretoChart(const Results& results, const std::vector<const Measurement*>& group);
+
+/// Those of a group that no other beats in both time and PSNR, by time.
+std::vector<const Measurement*> paretoFrontier(const std::vector<const Measurement*>& group);
 
 } // namespace nacre::bench

@@ -58,7 +58,7 @@ void runSuite(const Suite& suite, const SuiteOptions& options) {
     renderer::Device device(options.device);
     say("making the scenes");
     const bench::Plan plan = suite.plan(options.suite);
-    const bench::Results results = bench::runPlan(device, plan, options.suite.quick, options.folder, say);
+    const bench::Results results = bench::runPlan(device, plan, options.suite, options.folder, say);
     writeAll(results, options.folder);
     std::cout << bench::conclude(results) << '\n' << (options.folder / "report.html").string() << '\n';
 }
@@ -70,6 +70,12 @@ void addSuite(CLI::App& bench, const Suite& suite) {
     command->add_flag("--quick", options->suite.quick, "Smaller pictures and fewer frames: minutes without a GPU");
     command->add_option("--scene", options->suite.scene, "A model or scene file in place of the gallery")
         ->type_name("FILE");
+    command
+        ->add_option("--seconds", options->suite.seconds,
+                     "Time for measuring; every configuration gets its least number of frames even so")
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 86400.0))
+        ->capture_default_str();
     command
         ->add_option("-o,--output", options->folder, "Where to leave the results; default " + options->folder.string())
         ->type_name("FOLDER");

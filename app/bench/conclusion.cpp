@@ -46,18 +46,30 @@ std::vector<const Fit*> largestOf(std::vector<const Fit*> fits) {
     return fits;
 }
 
+// Of the experiments, which the thesis made, and of the sweep, which it did not.
 std::string thesisSentence(const Fit& fit) {
     const std::string slope = formatSlope(fit) + at(fit) + " (" + formatR2(fit.line) + ")";
+    const bool compares = fit.series.starts_with("experiment");
     if (verdictOf(fit) != "grows") {
-        return "the thesis's technique is " + verdictOf(fit) + ": " + slope + ", where the thesis has a straight line";
+        return std::string("the thesis's technique ") + (verdictOf(fit) == noLine ? "follows " : "is ") +
+               verdictOf(fit) + ": " + slope + (compares ? ", where the thesis has a straight line" : "");
     }
-    const bool reproduced = fit.line.rSquared >= linearFrom;
-    std::string text = "the thesis's technique grows by " + slope + ", " +
-                       (reproduced ? "its straight line" : "which is not the thesis's straight line");
-    if (fit.series == "experiment 2" && reproduced) {
+    const bool isLine = fit.line.rSquared >= linearFrom;
+    std::string text = "the thesis's technique grows by " + slope;
+    if (compares) {
+        text += isLine ? ", its straight line" : ", which is not the thesis's straight line";
+    }
+    if (fit.series == "experiment 2" && isLine) {
         text += "; the hardware of 2011 needed " + formatTime(thesis::radiusSlope1080) + " at 1920x1080";
     }
     return text;
+}
+
+// Of one that is not flat.
+std::string changeOf(const Fit& fit) {
+    const std::string spread = formatNumber(fit.spread) + "-fold in all";
+    return verdictOf(fit) == noLine ? "follows no line (" + spread + ")"
+                                    : verdictOf(fit) + " by " + formatSlope(fit) + " (" + spread + ")";
 }
 
 std::string othersSentence(const std::vector<const Fit*>& fits) {
@@ -65,10 +77,13 @@ std::string othersSentence(const std::vector<const Fit*>& fits) {
     std::vector<std::string> unclear;
     std::vector<std::string> parts;
     for (const Fit* fit : fits) {
-        if (!fit->flat) {
-            parts.push_back(fit->technique + " " + verdictOf(*fit) + " by " + formatSlope(*fit));
+        const std::string verdict = verdictOf(*fit);
+        if (verdict == "flat") {
+            flat.push_back(fit->technique);
+        } else if (verdict == tooNoisyToTell) {
+            unclear.push_back(fit->technique);
         } else {
-            (fit->noise < tooNoisy ? flat : unclear).push_back(fit->technique);
+            parts.push_back(fit->technique + " " + changeOf(*fit));
         }
     }
     if (!flat.empty()) {
@@ -134,12 +149,11 @@ std::string bakedSentence(const Results& results) {
 std::string paretoSentence(const std::vector<const Measurement*>& group) {
     std::vector<std::string> points;
     for (const Measurement* measurement : paretoFrontier(group)) {
-        points.push_back(measurement->technique + " " + formatNumber(measurement->value) + " (" +
+        points.push_back(measurement->technique + " at " + formatSetting(*measurement) + " (" +
                          formatTime(measurement->effect.median) + ", " + formatNumber(measurement->error->psnr) +
                          " dB)");
     }
-    const Measurement& any = *group.front();
-    return "On " + any.view + " at " + formatSize(any.width, any.height) + ", of " + std::to_string(group.size()) +
+    return "Over the " + describeParetoGroup(group) + ", of " + std::to_string(group.size()) +
            " settings nothing beats " + join(points) + ". ";
 }
 
@@ -154,8 +168,8 @@ std::string conclude(const Results& results) {
         text += seriesSentence(results, series);
     }
     text += bakedSentence(results);
-    for (const auto& group : paretoGroups(results)) {
-        text += paretoSentence(group);
+    for (const ParetoMean& mean : paretoMeans(results)) {
+        text += paretoSentence(pointersTo(mean));
     }
     text.erase(text.find_last_not_of(' ') + 1);
     return text;

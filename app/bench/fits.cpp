@@ -51,8 +51,7 @@ Fit fit(const Group& group, const std::string& quantity) {
         noise = std::max(noise, measurement->noise);
     }
     const auto [first, last] = std::minmax_element(x.begin(), x.end());
-    const double start = y[static_cast<std::size_t>(first - x.begin())];
-    const double end = y[static_cast<std::size_t>(last - x.begin())];
+    const auto [smallest, largest] = std::minmax_element(y.begin(), y.end());
     const Line line = fitLine(x, y);
     const Measurement& any = *group.front();
     const bool overSizes = any.variable == resolutionVariable;
@@ -64,9 +63,9 @@ Fit fit(const Group& group, const std::string& quantity) {
             .unit = any.unit,
             .quantity = quantity,
             .line = line,
-            .growth = start > 0 ? end / start : 1,
+            .spread = *smallest > 0 ? *largest / *smallest : 1,
             .noise = noise,
-            .flat = isFlat(line, start, *last - *first, noise)};
+            .flat = isFlat(line, *last - *first, *smallest, *largest, noise)};
 }
 
 } // namespace
@@ -74,6 +73,9 @@ Fit fit(const Group& group, const std::string& quantity) {
 std::vector<Fit> fitSeries(const std::vector<Measurement>& measurements) {
     std::vector<Fit> fits;
     for (const Group& group : groupsOf(measurements)) {
+        if (group.front()->error) {
+            continue;
+        }
         std::set<double> values;
         for (const Measurement* measurement : group) {
             values.insert(measurement->value);
@@ -89,10 +91,14 @@ std::vector<Fit> fitSeries(const std::vector<Measurement>& measurements) {
 }
 
 std::string verdictOf(const Fit& fit) {
-    if (fit.flat) {
-        return fit.noise < tooNoisy ? "flat" : "too noisy to tell";
+    const bool mayBeZero = fit.line.slopeLow <= 0 && fit.line.slopeHigh >= 0;
+    if (fit.noise >= tooNoisy && (fit.flat || mayBeZero)) {
+        return tooNoisyToTell;
     }
-    return fit.line.slope > 0 ? "grows" : "falls";
+    if (fit.flat) {
+        return "flat";
+    }
+    return mayBeZero ? noLine : fit.line.slope > 0 ? "grows" : "falls";
 }
 
 std::vector<const Fit*> fitsOf(const Results& results, std::string_view series, std::string_view quantity) {

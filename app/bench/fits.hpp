@@ -9,13 +9,20 @@ namespace nacre::bench {
 inline constexpr const char* resolutionVariable = "resolution";
 
 /// A line for every series, technique and picture size (over all sizes where the series varies the resolution) with at
-/// least three values: of the effect's time, the frame's, and every pass's. In order of first appearance.
+/// least three values: of the effect's time, the frame's, and every pass's. In order of first appearance. Not where
+/// errors were measured: there the value is a technique's own setting.
 std::vector<Fit> fitSeries(const std::vector<Measurement>& measurements);
 
 /// From this noise floor on a line that may be flat may be anything.
 inline constexpr double tooNoisy = 0.25;
 
-/// "flat", "grows", "falls", or "too noisy to tell".
+/// The verdict on what is not flat and has no certain slope.
+inline constexpr const char* noLine = "no line";
+
+/// The verdict where the noise hides the answer.
+inline constexpr const char* tooNoisyToTell = "too noisy to tell";
+
+/// "flat", "grows", "falls", `noLine` or `tooNoisyToTell`.
 std::string verdictOf(const Fit& fit);
 
 /// The fits of one quantity ("effect", "frame" or a pass's name).

@@ -50,7 +50,7 @@ struct Candidate {
 class SeriesRun {
 public:
     SeriesRun(renderer::Device& device, const Series& series, const HarnessSettings& settings, const Reporter& say)
-        : series_(series), settings_(settings), say_(say), stage_(device) {
+        : series_(series), settings_(settings), say_(say), stage_(device), twinStage_(device) {
         for (const Configuration& configuration : series.configurations) {
             candidates_.push_back({&configuration, {}, false});
         }
@@ -58,6 +58,7 @@ public:
     }
 
     SeriesResult run() {
+        const std::vector<ImageError> errors = findErrors();
         warmUp();
         measureRounds();
         SeriesResult result;
@@ -67,18 +68,21 @@ public:
                 result.measurements.push_back(describe(candidate, result.noiseFloors));
             }
         }
-        if (series_.withError) {
-            addErrors(result.measurements);
+        for (std::size_t i = 0; i < errors.size(); ++i) {
+            result.measurements[i].error = errors[i];
         }
         return result;
     }
 
 private:
-    // The first configuration of each size runs twice, at the start and at the end of every round.
+    // They come after all others, so that a configuration and its twin are at two ends of a round.
     void addTwins() {
         for (const Configuration& configuration : series_.configurations) {
-            const auto hasTwin = [&](const Configuration* other) { return sameSize(other->size, configuration.size); };
-            if (std::none_of(twins_.begin(), twins_.end(), hasTwin)) {
+            const auto hasSize = [&](const Configuration& other) { return sameSize(other.size, configuration.size); };
+            const auto& all = series_.configurations;
+            const Configuration& first = *std::find_if(all.begin(), all.end(), hasSize);
+            const Configuration& last = *std::find_if(all.rbegin(), all.rend(), hasSize);
+            if (&configuration == &first || &configuration == &last) {
                 twins_.push_back(&configuration);
             }
         }
@@ -90,40 +94,49 @@ private:
     void warmUp() {
         std::size_t done = 0;
         for (const Candidate& candidate : candidates_) {
-            stage_.select(*candidate.configuration);
+            Stage& stage = stageOf(candidate);
+            stage.select(*candidate.configuration);
             for (std::uint32_t frame = 0; frame < settings_.warmUpFrames; ++frame) {
-                stage_.renderEffect();
+                stage.renderEffect();
             }
             progress("warming up", ++done, candidates_.size());
+        }
+        const Clock::time_point begin = Clock::now();
+        while (secondsSince(begin) < settings_.warmUpSeconds) {
+            stage_.renderFrame();
         }
     }
 
     void measureRounds() {
-        const Clock::time_point begin = Clock::now();
         for (std::uint32_t round = 0; round < settings_.rounds; ++round) {
-            if (round >= minimumRounds && secondsSince(begin) > settings_.secondsPerSeries) {
+            if (round >= minimumRounds && secondsSince(begin_) > settings_.secondsPerSeries) {
                 say_(series_.name + ": " + std::to_string(round) + " of " + std::to_string(settings_.rounds) +
                      " rounds in the time there is");
                 break;
             }
             for (Candidate& candidate : candidates_) {
-                takeTurn(candidate, round < settings_.wholeFrameRounds);
+                takeTurn(candidate, round < settings_.frameRounds);
             }
             progress("round", round + 1, settings_.rounds);
         }
     }
 
-    void takeTurn(Candidate& candidate, bool wholeFrames) {
-        const auto render = [&]() -> const renderer::FrameReport& {
-            return wholeFrames ? stage_.renderFrame() : stage_.renderEffect();
-        };
-        if (stage_.select(*candidate.configuration) && settings_.settle) {
-            render();
+    void takeTurn(Candidate& candidate, bool withFrames) {
+        Stage& stage = stageOf(candidate);
+        stage.select(*candidate.configuration);
+        if (withFrames) {
+            candidate.samples.addPasses(stage.renderFrame());
+            candidate.samples.addWhole(stage.renderFrame(renderer::Timing::Whole));
         }
-        for (std::uint32_t frame = 0; frame < settings_.framesPerTurn; ++frame) {
-            candidate.samples.add(render(), wholeFrames);
+        if (settings_.settle) {
+            stage.renderEffect();
+        }
+        for (std::uint32_t effect = 0; effect < settings_.effectsPerTurn; ++effect) {
+            candidate.samples.addEffect(stage.renderEffect());
         }
     }
+
+    Stage& stageOf(const Candidate& candidate) { return candidate.isTwin ? twinStage_ : stage_; }
 
     void progress(const char* what, std::size_t done, std::size_t all) {
         if (secondsSince(lastLine_) > secondsBetweenLines || done == all) {
@@ -150,13 +163,13 @@ private:
         return floors;
     }
 
+    // The largest of its size.
     double noiseOf(const Configuration& configuration, const std::vector<NoiseFloor>& floors) const {
+        double noise = 0;
         for (std::size_t i = 0; i < twins_.size(); ++i) {
-            if (sameSize(twins_[i]->size, configuration.size)) {
-                return floors[i].share;
-            }
+            noise = sameSize(twins_[i]->size, configuration.size) ? std::max(noise, floors[i].share) : noise;
         }
-        return 1;
+        return noise;
     }
 
     Measurement describe(const Candidate& candidate, const std::vector<NoiseFloor>& floors) const {
@@ -169,7 +182,7 @@ private:
         measurement.width = configuration.size.width;
         measurement.height = configuration.size.height;
         measurement.variable = series_.variable;
-        measurement.unit = series_.unit;
+        measurement.unit = configuration.unit.empty() ? series_.unit : configuration.unit;
         measurement.value = configuration.value;
         candidate.samples.fill(measurement);
         measurement.footprint = footprint(*configuration.view, configuration.size, configuration.materials);
@@ -178,40 +191,38 @@ private:
         return measurement;
     }
 
-    void addErrors(std::vector<Measurement>& measurements) {
-        for (std::size_t i = 0; i < measurements.size(); ++i) {
-            const Configuration& configuration = series_.configurations[i];
-            measurements[i].error = errorOf(configuration);
-            progress("comparing with brute", i + 1, measurements.size());
+    // One for each configuration of the series, where it asks for them.
+    std::vector<ImageError> findErrors() {
+        if (!series_.errorAt) {
+            return {};
         }
+        Configuration exact = series_.configurations.front();
+        exact.effect.technique = renderer::Technique::Brute;
+        exact.size = *series_.errorAt;
+        const ReferencePicture reference(picture(exact));
+        std::vector<ImageError> errors;
+        for (const Configuration& configuration : series_.configurations) {
+            errors.push_back(reference.compare(picture(configuration)));
+            progress("comparing with brute", errors.size(), series_.configurations.size());
+        }
+        return errors;
     }
 
-    ImageError errorOf(const Configuration& configuration) {
-        const bool sameReference = !reference_.empty() && referenceOf_.view == configuration.view &&
-                                   sameSize(referenceOf_.size, configuration.size) &&
-                                   referenceOf_.materials == configuration.materials;
-        if (!sameReference) {
-            referenceOf_ = configuration;
-            referenceOf_.effect.technique = renderer::Technique::Brute;
-            stage_.select(referenceOf_);
-            stage_.renderFrame();
-            reference_ = stage_.read(renderer::Output::Scattered).values;
-            materialIds_ = stage_.read(renderer::Output::Material).values;
-        }
+    IdentifiedPicture picture(const Configuration& configuration) {
         stage_.select(configuration);
         stage_.renderFrame();
-        return compareImages(stage_.read(renderer::Output::Scattered).values, reference_, materialIds_);
+        renderer::Pixels scattered = stage_.read(renderer::Output::Scattered);
+        return {scattered.width, scattered.height, std::move(scattered.values),
+                stage_.read(renderer::Output::Material).values};
     }
 
     const Series& series_;
     const HarnessSettings& settings_;
     const Reporter& say_;
     Stage stage_;
+    Stage twinStage_; ///< with images of its own
     std::vector<Candidate> candidates_;
     std::vector<const Configuration*> twins_;
-    Configuration referenceOf_;
-    std::vector<float> reference_;
-    std::vector<float> materialIds_;
     Clock::time_point begin_ = Clock::now();
     Clock::time_point lastLine_ = Clock::now();
 };

@@ -5,6 +5,7 @@
 #include "scene/scene.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Configuration {
     std::uint32_t shadowMapSize = 2048;
     std::vector<Material> materials; ///< in place of the scene's
     double value = 0;                ///< of the series' variable
+    std::string unit;                ///< of `value` where it is not the series'
 };
 
 /// Configurations that are compared with each other, measured in turn.
@@ -38,8 +40,9 @@ struct Series {
     std::string name;
     std::string variable;
     std::string unit;
-    std::vector<Configuration> configurations;
-    bool withError = false; ///< compare each picture with technique `brute`
+    std::vector<Configuration>
+        configurations;          ///< not empty; with `errorAt` all of one view and with the same materials
+    std::optional<Size> errorAt; ///< compare each picture, enlarged to this size, with that of technique `brute`
 };
 
 /// A picture pair of the report.

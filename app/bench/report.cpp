@@ -52,7 +52,8 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 }
 
 std::string picture(const std::filesystem::path& file, const std::string& name, const char* role) {
-    return "<img class=\"" + std::string(role) + "\" alt=\"" + escapeHtml(name) + "\" src=\"data:image/png;base64," +
+    const char* type = file.extension() == ".png" ? "image/png" : "image/jpeg";
+    return "<img class=\"" + std::string(role) + "\" alt=\"" + escapeHtml(name) + "\" src=\"data:" + type + ";base64," +
            base64(readFile(file, maxPictureBytes)) + "\">";
 }
 
@@ -117,10 +118,11 @@ public:
 
     std::string html() {
         std::string body = header();
+        const auto groups = paretoGroups(results_);
         for (const std::string& series : seriesOf(results_)) {
-            body += series.starts_with("pareto") ? paretoSection(series) : seriesSection(series);
+            body += isIn(groups, series) ? "" : seriesSection(series);
         }
-        body += appendix();
+        body += (groups.empty() ? "" : paretoSection(groups)) + appendix();
         return document(body);
     }
 
@@ -143,12 +145,14 @@ private:
                "</p>\n<p>" + text.text + "</p>\n<p class=\"conclusion\">" + escapeHtml(conclude(results_)) + "</p>\n";
     }
 
-    std::string plots(const std::vector<Chart>& charts) {
+    // `heading` is what they show, where one of them stands alone.
+    std::string plots(const std::vector<Chart>& charts, const std::string& heading) {
         std::string figures;
         for (const Chart& chart : charts) {
             figures += "<figure class=\"chart\"><h3>" + escapeHtml(chart.title) +
-                       "</h3><div class=\"canvas\"><canvas role=\"img\" aria-label=\"" + escapeHtml(chart.title) +
-                       "\" data-chart=\"" + std::to_string(charts_.size()) + "\"></canvas></div></figure>\n";
+                       "</h3><div class=\"canvas\"><canvas role=\"img\" aria-label=\"" +
+                       escapeHtml(heading + ": " + chart.title) + "\" data-chart=\"" + std::to_string(charts_.size()) +
+                       "\"></canvas></div></figure>\n";
             charts_.push_back(toJson(chart));
         }
         return "<div class=\"charts\">\n" + figures + "</div>\n";
@@ -171,7 +175,7 @@ private:
                                thesis::machine + ".") +
                     "</p>\n";
         }
-        html += plots(chartsOfSeries(results_, series));
+        html += plots(chartsOfSeries(results_, series), series);
         html += "<p class=\"note\">Points are medians, whiskers their 95 % confidence; the copy pass reads and writes "
                 "the same pictures and does nothing else.</p>\n";
         html += slopeTable(results_, series) + pairs(results_, series, folder_);
@@ -180,16 +184,35 @@ private:
         return html + details("Every configuration", measurementTable(results_, series));
     }
 
-    std::string paretoSection(const std::string& series) {
-        const SeriesText text = describeSeries(series);
-        std::string html = "<h2>" + std::string(text.title) + "</h2>\n<p>" + text.text + "</p>\n";
-        html += plots(paretoCharts(results_)) + pairs(results_, series, folder_);
-        for (const auto& group : paretoGroups(results_)) {
-            const Measurement& any = *group.front();
-            html += "<h3>" + escapeHtml(any.view + ", " + formatSize(any.width, any.height)) + "</h3>\n" +
-                    paretoTable(group);
+    using Groups = std::vector<std::vector<const Measurement*>>;
+
+    static bool isIn(const Groups& groups, const std::string& series) {
+        return std::any_of(groups.begin(), groups.end(),
+                           [&](const auto& group) { return group.front()->series == series; });
+    }
+
+    std::string paretoSection(const Groups& groups) {
+        const SeriesText text = describeSeries(groups.front().front()->series);
+        std::vector<Chart> charts;
+        std::string tables;
+        for (const ParetoMean& mean : paretoMeans(results_)) {
+            const std::vector<const Measurement*> group = pointersTo(mean);
+            charts.push_back(paretoChart(results_, group));
+            tables += "<h3>" + escapeHtml(describeParetoGroup(group)) + "</h3>\n" + paretoTable(group);
         }
-        return html + details("Every configuration", measurementTable(results_, series));
+        std::string html = "<h2>" + std::string(text.title) + "</h2>\n<p>" + escapeHtml(text.text) + "</p>\n" +
+                           plots(charts, text.title) + tables + pairs(results_, "pareto", folder_) +
+                           "<h2>Each view and footprint</h2>\n";
+        charts.clear();
+        for (const auto& group : groups) {
+            charts.push_back(paretoChart(results_, group));
+        }
+        html += plots(charts, text.title);
+        for (const auto& group : groups) {
+            html += details(escapeHtml(describeParetoGroup(group)),
+                            paretoTable(group) + measurementTable(results_, group.front()->series));
+        }
+        return html;
     }
 
     std::string appendix() const {

@@ -49,12 +49,12 @@ void addSlope(Table& table, const Fit& fit) {
     table.add({fit.technique, fit.width == 0 ? "all" : formatSize(fit.width, fit.height), fit.quantity,
                formatSlope(fit), formatInterval(fit.line.slopeLow, fit.line.slopeHigh),
                formatNumber(fit.line.robustSlope), formatNumber(fit.line.rSquared, 4), formatTime(fit.line.intercept),
-               formatNumber(fit.growth) + "×", formatShare(fit.noise), verdictOf(fit)});
+               formatNumber(fit.spread) + "×", formatShare(fit.noise), verdictOf(fit)});
 }
 
 std::vector<std::string> slopeHeader() {
-    return {"technique", "size",   "time of", "slope",  "95 % interval (µs)", "Theil–Sen (µs)", "R²",
-            "at 0",      "growth", "noise",   "verdict"};
+    return {"technique",          "size",  "time of", "slope", "95 % interval (µs)", "Theil–Sen (µs)", "R²", "at 0",
+            "largest / smallest", "noise", "verdict"};
 }
 
 bool isWhole(const std::string& quantity) {
@@ -91,11 +91,10 @@ std::string measurementTable(const Results& results, const std::string& series) 
                 measurement.unit.empty() ? measurement.variable : measurement.variable + " (" + measurement.unit + ")";
         }
     }
-    Table table({"technique",      "size",           variable,         "effect (µs)",   "95 % of the median",
-                 "p5 … p95",       "frames",         "copy (µs)",      "copy / effect", "copy (GB/s)",
-                 "frame (µs)",     "passes / frame", "recording (µs)", "noise",         "coverage",
-                 "footprint (px)", "lights",         "materials",      "layers",        "triangles",
-                 "dispatches"},
+    Table table({"technique",      "size",           variable,        "effect (µs)", "95 % of the median", "p5 … p95",
+                 "frames",         "copy (µs)",      "copy / effect", "copy (MB)",   "copy (GB/s)",        "frame (µs)",
+                 "passes / frame", "recording (µs)", "noise",         "coverage",    "footprint (px)",     "lights",
+                 "materials",      "layers",         "triangles",     "dispatches"},
                 2);
     for (const Measurement& m : results.measurements) {
         if (m.series != series) {
@@ -112,6 +111,7 @@ std::string measurementTable(const Results& results, const std::string& series) 
                    std::to_string(m.effect.count),
                    formatNumber(m.copy.median),
                    formatShare(floorShare),
+                   formatNumber(1e-6 * static_cast<double>(m.copyBytes)),
                    formatNumber(bandwidth),
                    formatNumber(m.frame.median, 4),
                    formatShare(m.passShare),
@@ -161,9 +161,9 @@ std::string paretoTable(const std::vector<const Measurement*>& group) {
                 2);
     for (const Measurement* m : group) {
         const bool onFrontier = std::find(frontier.begin(), frontier.end(), m) != frontier.end();
-        table.add({m->technique, formatNumber(m->value) + (m->unit.empty() ? "" : " " + m->unit),
-                   formatNumber(m->effect.median, 4), formatInterval(m->effect.low, m->effect.high),
-                   formatShare(m->noise), formatNumber(m->error->psnr, 4), formatNumber(m->error->relMse),
+        table.add({m->technique, formatSetting(*m), formatNumber(m->effect.median, 4),
+                   formatInterval(m->effect.low, m->effect.high), formatShare(m->noise),
+                   formatNumber(m->error->psnr, 4), formatNumber(m->error->relMse),
                    formatNumber(m->error->energyRatio, 4), onFrontier ? "yes" : ""});
     }
     return table.html();
@@ -208,12 +208,16 @@ std::string machineTable(const Results& results) {
     if (machine.clocks.empty()) {
         table.add({"clocks", "could not be read"});
     }
+    if (!results.measurements.empty()) {
+        table.add({"sum of the passes / frame", formatPassShares(results)});
+    }
     table.add({"scene", results.scene});
     table.add({"sources", "Nacre " + results.nacreVersion + ", commit " + results.commit});
     table.add({"procedure",
                std::string(results.procedure.quick ? "quick; " : "") + std::to_string(results.procedure.warmUpFrames) +
-                   " warm-up frames a configuration, then up to " + std::to_string(results.procedure.rounds) +
-                   " rounds in which every configuration of a series takes its turn; " +
+                   " warm-up frames a configuration; then rounds in which every configuration of a series takes its "
+                   "turn: of frames, and of up to " +
+                   std::to_string(results.procedure.repetitions) + " repetitions of the effect; " +
                    formatNumber(results.procedure.seconds) + " s in all"});
     return table.html();
 }

@@ -56,7 +56,7 @@ constexpr auto keys<Machine> =
 template <>
 constexpr auto keys<Procedure> =
     std::tuple{Key{"quick", &Procedure::quick}, Key{"warmUpFrames", &Procedure::warmUpFrames},
-               Key{"rounds", &Procedure::rounds}, Key{"seconds", &Procedure::seconds}};
+               Key{"repetitions", &Procedure::repetitions}, Key{"seconds", &Procedure::seconds}};
 template <>
 constexpr auto keys<PassResult> = std::tuple{Key{"name", &PassResult::name}, Key{"time", &PassResult::time}};
 template <> constexpr auto keys<MemoryUse> = std::tuple{Key{"name", &MemoryUse::name}, Key{"bytes", &MemoryUse::bytes}};
@@ -99,7 +99,7 @@ constexpr auto keys<Fit> = std::tuple{Key{"series", &Fit::series},     Key{"tech
                                       Key{"width", &Fit::width},       Key{"height", &Fit::height},
                                       Key{"variable", &Fit::variable}, Key{"unit", &Fit::unit},
                                       Key{"quantity", &Fit::quantity}, Key{"line", &Fit::line},
-                                      Key{"growth", &Fit::growth},     Key{"noise", &Fit::noise},
+                                      Key{"spread", &Fit::spread},     Key{"noise", &Fit::noise},
                                       Key{"flat", &Fit::flat}};
 template <>
 constexpr auto keys<ImagePair> =

@@ -38,7 +38,7 @@ struct Machine {
 struct Procedure {
     bool quick = false;
     std::uint32_t warmUpFrames = 0; ///< per configuration, before the first round
-    std::uint32_t rounds = 0;       ///< most frames a configuration was asked for
+    std::uint32_t repetitions = 0;  ///< most repetitions of the effect that a configuration was asked for
     double seconds = 0;             ///< duration of the whole run
 
     bool operator==(const Procedure&) const = default;
@@ -82,12 +82,12 @@ struct Measurement {
     std::string variable; ///< what the series varies, e.g. "radius"
     std::string unit;     ///< of `value`, e.g. "texels"; empty = a count
     double value = 0;
-    Summary frame;                  ///< µs from the frame's first timestamp to its last
-    Summary effect;                 ///< µs, the effect's passes together
+    Summary frame;                  ///< µs of a frame that has no timestamps but its first and last
+    Summary effect;                 ///< µs, the effect's passes together, repeated on the images of a frame
     Summary copy;                   ///< µs of a pass that only copies the effect's inputs to its output
     Summary recording;              ///< µs of processor time to record the frame
     std::vector<PassResult> passes; ///< in order of execution
-    double passShare = 0;           ///< Σ median of the passes / median of the frame
+    double passShare = 0;           ///< Σ median of the passes, timed within frames / median of the frame
     std::uint64_t copyBytes = 0;    ///< what the copy reads and writes
     double coverage = 0;            ///< [0, 1] share of pixels with a subsurface material
     double footprint = 0;           ///< px, rms radius of the widest channel at the body nearest to the camera
@@ -127,7 +127,7 @@ struct Fit {
     std::string unit;
     std::string quantity; ///< whose time: "effect", "frame" or a pass's name
     Line line;            ///< µs per unit of the variable
-    double growth = 1;    ///< time at the largest value / time at the smallest
+    double spread = 1;    ///< largest time of the series / smallest
     double noise = 0;     ///< largest of the series
     bool flat = false;    ///< isFlat
 

@@ -10,22 +10,34 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <span>
 #include <thread>
 
 namespace nacre::bench {
 namespace {
 
-/// What a suite may take before no series begins another round.
-constexpr double secondsOfSuite = 240;
 constexpr std::uint32_t pictureShadowMapSize = 2048;
 
-HarnessSettings settingsFor(const Plan& plan, bool quick) {
-    HarnessSettings settings;
+HarnessSettings settingsFor(bool quick) {
     if (quick) {
-        settings = {.warmUpFrames = 1, .rounds = 7, .framesPerTurn = 1, .settle = false, .wholeFrameRounds = 1};
+        return {
+            .warmUpFrames = 1, .warmUpSeconds = 0, .rounds = 6, .frameRounds = 1, .effectsPerTurn = 1, .settle = false};
     }
-    settings.secondsPerSeries = secondsOfSuite / static_cast<double>(std::max<std::size_t>(1, plan.series.size()));
-    return settings;
+    return {};
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Splits the time that is left between this series and those after it by their numbers of configurations.
+double secondsFor(std::span<const Series> series, double secondsLeft) {
+    std::size_t configurations = 0;
+    for (const Series& next : series) {
+        configurations += next.configurations.size();
+    }
+    return secondsLeft * static_cast<double>(series.front().configurations.size()) /
+           static_cast<double>(configurations);
 }
 
 std::string now() {
@@ -50,7 +62,7 @@ void writePicture(const std::filesystem::path& file, const renderer::Pixels& pix
     std::transform(pixels.values.begin(), pixels.values.end(), bytes.begin(), [](float value) {
         return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
     });
-    scene::writePng(file, pixels.width, pixels.height, static_cast<int>(pixels.channels.size()), bytes);
+    scene::writeJpeg(file, pixels.width, pixels.height, bytes);
 }
 
 ImagePair render(Stage& stage, const Picture& picture, const std::filesystem::path& folder) {
@@ -67,8 +79,8 @@ ImagePair render(Stage& stage, const Picture& picture, const std::filesystem::pa
     };
     Configuration after = configuration;
     after.effect = picture.after;
-    const std::string beforeFile = renderTo(configuration, picture.name + "-off.png");
-    const std::string afterFile = renderTo(after, picture.name + "-on.png");
+    const std::string beforeFile = renderTo(configuration, picture.name + "-before.jpg");
+    const std::string afterFile = renderTo(after, picture.name + "-after.jpg");
     return {picture.series, picture.title, picture.beforeText, beforeFile, picture.afterText, afterFile};
 }
 
@@ -85,10 +97,10 @@ std::vector<ImagePair> renderPictures(renderer::Device& device, const Plan& plan
 
 } // namespace
 
-Results runPlan(renderer::Device& device, const Plan& plan, bool quick, const std::filesystem::path& folder,
-                const Reporter& say) {
+Results runPlan(renderer::Device& device, const Plan& plan, const SuiteSettings& suite,
+                const std::filesystem::path& folder, const Reporter& say) {
     const auto begin = std::chrono::steady_clock::now();
-    const HarnessSettings settings = settingsFor(plan, quick);
+    HarnessSettings settings = settingsFor(suite.quick);
     const renderer::DeviceDescription& description = device.description();
     const auto clocks = [&] { return readClocks(description.name, description.kind == "software"); };
     Results results{.suite = plan.suite,
@@ -96,8 +108,9 @@ Results runPlan(renderer::Device& device, const Plan& plan, bool quick, const st
                     .commit = std::string(commit),
                     .scene = plan.scene,
                     .machine = describe(description)};
-    for (const Series& series : plan.series) {
-        SeriesResult result = measure(device, series, settings, say);
+    for (std::size_t i = 0; i < plan.series.size(); ++i) {
+        settings.secondsPerSeries = secondsFor(std::span(plan.series).subspan(i), suite.seconds - secondsSince(begin));
+        SeriesResult result = measure(device, plan.series[i], settings, say);
         std::move(result.measurements.begin(), result.measurements.end(), std::back_inserter(results.measurements));
         std::move(result.noiseFloors.begin(), result.noiseFloors.end(), std::back_inserter(results.noiseFloors));
         if (results.machine.clocks.empty()) {
@@ -111,11 +124,10 @@ Results runPlan(renderer::Device& device, const Plan& plan, bool quick, const st
     results.fits = fitSeries(results.measurements);
     results.images = renderPictures(device, plan, folder, say);
     results.created = now();
-    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
-    results.procedure = {.quick = quick,
+    results.procedure = {.quick = suite.quick,
                          .warmUpFrames = settings.warmUpFrames,
-                         .rounds = settings.rounds * settings.framesPerTurn,
-                         .seconds = duration.count()};
+                         .repetitions = settings.rounds * settings.effectsPerTurn,
+                         .seconds = secondsSince(begin)};
     return results;
 }
 

@@ -13,43 +13,57 @@ bool isEffect(const std::string& pass) {
 
 } // namespace
 
-void Samples::add(const renderer::FrameReport& report, bool wholeFrame) {
-    double effect = 0;
+void Samples::Passes::add(const renderer::FrameReport& report) {
     double sum = 0;
-    for (const renderer::PassTime& pass : report.passes) {
+    for (const renderer::PassTime& time : report.passes) {
         const auto known =
-            std::find_if(passes_.begin(), passes_.end(), [&](const Pass& other) { return other.name == pass.name; });
-        Pass& target = known == passes_.end() ? passes_.emplace_back(Pass{pass.name, {}}) : *known;
-        target.times.push_back(pass.microseconds);
-        effect += isEffect(pass.name) ? pass.microseconds : 0;
-        sum += pass.microseconds;
-        if (pass.name == copyPass) {
-            copy_.push_back(pass.microseconds);
-        }
+            std::find_if(passes.begin(), passes.end(), [&](const Pass& other) { return other.name == time.name; });
+        Pass& target = known == passes.end() ? passes.emplace_back(Pass{time.name, {}}) : *known;
+        target.times.push_back(time.microseconds);
+        sum += isEffect(time.name) ? time.microseconds : 0;
     }
-    effect_.push_back(effect);
-    if (!wholeFrame) {
-        return;
-    }
-    // The copy is no part of a frame but of its measurement.
-    const double copy = copy_.empty() ? 0 : copy_.back();
-    frame_.push_back(report.totalMicroseconds - copy);
-    passShares_.push_back((sum - copy) / (report.totalMicroseconds - copy));
-    recording_.push_back(report.recordingMicroseconds);
+    effect.push_back(sum);
+}
+
+const Samples::Pass* Samples::Passes::find(const std::string& name) const {
+    const auto pass = std::find_if(passes.begin(), passes.end(), [&](const Pass& other) { return other.name == name; });
+    return pass == passes.end() ? nullptr : &*pass;
+}
+
+void Samples::addPasses(const renderer::FrameReport& report) {
+    inFrame_.add(report);
     last_ = report;
+}
+
+void Samples::addWhole(const renderer::FrameReport& report) {
+    frame_.push_back(report.totalMicroseconds);
+    recording_.push_back(report.recordingMicroseconds);
+}
+
+void Samples::addEffect(const renderer::FrameReport& report) {
+    alone_.add(report);
+}
+
+Summary Samples::effect() const {
+    return summarize(effectSource().effect);
 }
 
 void Samples::fill(Measurement& measurement) const {
     measurement.frame = summarize(frame_);
-    measurement.effect = summarize(effect_);
-    measurement.copy = summarize(copy_);
+    measurement.effect = effect();
     measurement.recording = summarize(recording_);
-    measurement.passShare = summarize(passShares_).median;
-    for (const Pass& pass : passes_) {
-        if (pass.name != copyPass) {
-            measurement.passes.push_back({pass.name, summarize(pass.times)});
+    double sum = 0;
+    for (const Pass& pass : inFrame_.passes) {
+        const Pass* alone = alone_.find(pass.name);
+        const Summary time = summarize(alone == nullptr ? pass.times : alone->times);
+        if (pass.name == copyPass) {
+            measurement.copy = time;
+        } else {
+            measurement.passes.push_back({pass.name, time});
+            sum += summarize(pass.times).median;
         }
     }
+    measurement.passShare = sum / measurement.frame.median;
     for (const renderer::MemoryUse& use : last_.memory) {
         measurement.memory.push_back({use.name, use.bytes});
     }

@@ -9,26 +9,38 @@ namespace nacre::bench {
 /// Collects frame reports of one configuration and summarises them.
 class Samples {
 public:
-    /// A whole frame, or the effect alone.
-    void add(const renderer::FrameReport& report, bool wholeFrame);
+    /// A frame with a timestamp around every pass.
+    void addPasses(const renderer::FrameReport& report);
+    /// A frame with timestamps around the whole.
+    void addWhole(const renderer::FrameReport& report);
+    /// The effect alone, on the images of a frame.
+    void addEffect(const renderer::FrameReport& report);
 
-    /// Fills the times, pass shares, sizes and memory of a measurement. There must have been a whole frame.
+    /// Fills the times, pass shares, sizes and memory of a measurement. There must have been a frame of either kind.
     void fill(Measurement& measurement) const;
-    Summary effect() const { return summarize(effect_); }
+    /// Of the effect alone, or where that was not measured, within frames.
+    Summary effect() const;
 
 private:
     struct Pass {
         std::string name;
         std::vector<double> times;
     };
+    struct Passes {
+        std::vector<Pass> passes; ///< in order of execution
+        std::vector<double> effect;
 
-    renderer::FrameReport last_; ///< of a whole frame
+        void add(const renderer::FrameReport& report);
+        const Pass* find(const std::string& name) const;
+    };
+
+    const Passes& effectSource() const { return alone_.effect.empty() ? inFrame_ : alone_; }
+
+    renderer::FrameReport last_; ///< of a frame
+    Passes inFrame_;
+    Passes alone_;
     std::vector<double> frame_;
-    std::vector<double> effect_;
-    std::vector<double> copy_;
     std::vector<double> recording_;
-    std::vector<double> passShares_;
-    std::vector<Pass> passes_;
 };
 
 } // namespace nacre::bench

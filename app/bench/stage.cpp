@@ -14,9 +14,9 @@ renderer::RenderSettings settingsOf(const Configuration& configuration) {
 
 } // namespace
 
-bool Stage::select(const Configuration& configuration) {
+void Stage::select(const Configuration& configuration) {
     if (selected_ == &configuration) {
-        return false;
+        return;
     }
     const Key key{configuration.view.get(), configuration.size.width, configuration.size.height,
                   configuration.shadowMapSize};
@@ -32,11 +32,10 @@ bool Stage::select(const Configuration& configuration) {
     actor_->renderer.setEffect(configuration.effect);
     actor_->configuration = &configuration;
     selected_ = &configuration;
-    return true;
 }
 
-const renderer::FrameReport& Stage::renderFrame() {
-    actor_->renderer.render(selected_->view->camera);
+const renderer::FrameReport& Stage::renderFrame(renderer::Timing timing) {
+    actor_->renderer.render(selected_->view->camera, timing);
     actor_->rendered = true;
     return actor_->renderer.report();
 }

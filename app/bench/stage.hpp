@@ -12,10 +12,10 @@ class Stage {
 public:
     explicit Stage(renderer::Device& device) : device_(device) {}
 
-    /// Makes the configuration the one that is rendered. Returns whether it was not.
-    bool select(const Configuration& configuration);
+    /// Makes the configuration, which must outlive its being selected, the one that is rendered.
+    void select(const Configuration& configuration);
     /// Renders the selected configuration.
-    const renderer::FrameReport& renderFrame();
+    const renderer::FrameReport& renderFrame(renderer::Timing timing = renderer::Timing::Passes);
     /// Repeats the effect on its renderer's last frame, or renders one where there is none yet.
     const renderer::FrameReport& renderEffect();
     renderer::Pixels read(renderer::Output output) const { return actor_->renderer.read(output); }

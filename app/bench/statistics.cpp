@@ -121,9 +121,10 @@ Line fitLine(std::span<const double> x, std::span<const double> y) {
             .robustSlope = robustSlope(x, y)};
 }
 
-bool isFlat(const Line& line, double start, double span, double noise) {
+bool isFlat(const Line& line, double span, double smallest, double largest, double noise) {
     const bool holdsZero = line.slopeLow <= 0 && line.slopeHigh >= 0;
-    return holdsZero || std::abs(line.slope * span) < noise * start;
+    const bool staysNear = largest <= smallest * (1 + std::max(noise, flatSpread));
+    return staysNear && (holdsZero || std::abs(line.slope * span) < noise * smallest);
 }
 
 double noiseFloor(const Summary& first, const Summary& second) {

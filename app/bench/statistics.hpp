@@ -53,9 +53,13 @@ struct Line {
 /// two different x.
 Line fitLine(std::span<const double> x, std::span<const double> y);
 
-/// Whether nothing says that the line is not flat: its slope's interval holds 0, or it predicts a change over `span` of
-/// x that is smaller than `noise` (a share) of the value at the start.
-bool isFlat(const Line& line, double start, double span, double noise);
+/// How far apart, as a share, the values of a flat line may lie: its slope may be 0 where values rise and level off.
+inline constexpr double flatSpread = 0.1;
+
+/// Whether nothing says that values are not constant along x: the line's slope's interval holds 0, or it predicts a
+/// change over `span` of x that is smaller than `noise` (a share) of the smallest value; and the largest value is not
+/// more than `flatSpread` or `noise` above the smallest.
+bool isFlat(const Line& line, double span, double smallest, double largest, double noise);
 
 /// The difference between two medians of the same configuration that is not evidence of anything: the share by which
 /// they differ, or the wider of their intervals' half widths, whichever is more. 1 when a median is 0: the clock is too

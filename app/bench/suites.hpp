@@ -10,6 +10,7 @@ namespace nacre::bench {
 struct SuiteSettings {
     bool quick = false;          ///< smaller pictures and fewer values
     std::filesystem::path scene; ///< a model or scene file; empty = the gallery
+    double seconds = 240;        ///< after this long no configuration is asked for more than the least number of frames
 };
 
 /// Experiments 1, 2 and 3 of the thesis, chapter 4.5.

@@ -1,5 +1,7 @@
 #include "app/bench/techniques.hpp"
 
+#include <cmath>
+
 namespace nacre::bench {
 namespace {
 
@@ -8,12 +10,21 @@ using renderer::Technique;
 
 constexpr std::uint32_t thesisRadii[] = {3, 5, 8, 12, 16};
 constexpr std::uint32_t burleyBudgets[] = {8, 16, 32, 64, 128};
+constexpr double pixelShares[] = {0.5, 0.75, 1};
 
 EffectSettings thesisSettings(const View& view, const Size& size, std::uint32_t radius, bool baked) {
     return {.technique = Technique::Thesis,
             .thesisRadius = radius,
             .thesisStrength = thesisStrength(view, size, radius),
             .thesisBakedKernel = baked};
+}
+
+// The size of the same shape with `share` of the pixels.
+Size shrunk(const Size& size, double share) {
+    const auto side = [share](std::uint32_t length) {
+        return static_cast<std::uint32_t>(std::lround(length * std::sqrt(share)));
+    };
+    return {side(size.width), side(size.height)};
 }
 
 } // namespace
@@ -30,17 +41,23 @@ std::vector<Variant> transmitVariants() {
     return {{"thesis", {.scatter = false, .thesisTransmittance = true}}, {"slab", {.scatter = false}}};
 }
 
-std::vector<Variant> qualityVariants(const View& view, const Size& size) {
-    std::vector<Variant> variants;
+std::vector<QualityVariant> qualityVariants(const View& view, const Size& size) {
+    std::vector<QualityVariant> variants;
     for (const std::uint32_t radius : thesisRadii) {
-        variants.push_back({"thesis", thesisSettings(view, size, radius, false), static_cast<double>(radius)});
+        variants.push_back({{"thesis", thesisSettings(view, size, radius, false)}, double(radius), "texels", size});
     }
-    variants.push_back({"separable", {.technique = Technique::Separable}});
     for (const std::uint32_t budget : burleyBudgets) {
-        variants.push_back(
-            {"burley", {.technique = Technique::Burley, .burleySampleBudget = budget}, static_cast<double>(budget)});
+        variants.push_back({{"burley", {.technique = Technique::Burley, .burleySampleBudget = budget}},
+                            double(budget),
+                            "samples",
+                            size});
     }
-    variants.push_back({"bank", {.technique = Technique::Bank}});
+    for (const auto& [name, technique] :
+         {std::pair{"separable", Technique::Separable}, std::pair{"bank", Technique::Bank}}) {
+        for (const double share : pixelShares) {
+            variants.push_back({{name, {.technique = technique}}, 100 * share, "% of the pixels", shrunk(size, share)});
+        }
+    }
     return variants;
 }
 

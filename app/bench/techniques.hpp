@@ -5,11 +5,18 @@
 
 namespace nacre::bench {
 
-/// A way to scatter or transmit, at one quality.
+/// A way to scatter or transmit.
 struct Variant {
     std::string technique;
     renderer::EffectSettings effect;
-    double quality = 0; ///< taps or samples; 0 where the technique has no such setting
+};
+
+/// A technique at one quality.
+struct QualityVariant {
+    Variant variant;
+    double quality = 0;
+    std::string unit; ///< of `quality`
+    Size size;        ///< of the picture it renders
 };
 
 /// Every scatter technique but the reference, at its default quality, "thesis" also with its kernel compiled in.
@@ -19,7 +26,8 @@ std::vector<Variant> scatterVariants(const View& view, const Size& size, std::ui
 /// The ways to transmit, scattering off.
 std::vector<Variant> transmitVariants();
 
-/// Every scatter technique but the reference, at all its qualities.
-std::vector<Variant> qualityVariants(const View& view, const Size& size);
+/// Every scatter technique but the reference, at all its qualities. What has no setting of its own has the resolution:
+/// the picture is rendered at a share of `size`, as with dynamic resolution.
+std::vector<QualityVariant> qualityVariants(const View& view, const Size& size);
 
 } // namespace nacre::bench

@@ -25,17 +25,37 @@ std::string singular(std::string unit) {
     return unit;
 }
 
+// So many that `digits` digits of the value are told.
+int decimalsFor(double value, int digits) {
+    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    return std::clamp(digits - 1 - magnitude, 0, 12);
+}
+
+std::string formatDecimals(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+// As many decimals as two digits of the margin have, so that no digit is told that nobody knows.
+std::string formatWithMargin(double value, double margin) {
+    if (!(margin > 0) || !std::isfinite(margin)) {
+        return formatNumber(value) + " ± " + formatNumber(margin);
+    }
+    const int decimals = decimalsFor(margin, 2);
+    const std::string text = formatDecimals(value, decimals);
+    const bool isZero = text.find_first_of("123456789") == std::string::npos;
+    return (isZero ? formatDecimals(0, decimals) : text) + " ± " + formatDecimals(margin, decimals);
+}
+
 } // namespace
 
 std::string formatNumber(double value, int digits) {
     if (value == 0 || !std::isfinite(value)) {
         return value == 0 ? "0" : "∞";
     }
-    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    const int decimals = std::clamp(digits - 1 - magnitude, 0, 12);
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    std::string result = text;
+    const int decimals = decimalsFor(value, digits);
+    std::string result = formatDecimals(value, decimals);
     if (decimals > 0) {
         result.erase(result.find_last_not_of('0') + 1);
         if (result.back() == '.') {
@@ -50,8 +70,8 @@ std::string formatTime(double microseconds) {
                                            : formatNumber(microseconds / 1000) + " ms";
 }
 
-std::string formatShare(double share) {
-    return formatNumber(100 * share, 2) + " %";
+std::string formatShare(double share, int digits) {
+    return formatNumber(100 * share, digits) + " %";
 }
 
 std::string formatCount(std::uint64_t count) {
@@ -72,8 +92,11 @@ std::string formatSlope(const Fit& fit) {
     const std::string per = " per " + (fit.unit.empty() ? singular(fit.variable) : singular(fit.unit));
     const bool milliseconds = std::max(std::abs(fit.line.slope), margin) >= 10'000;
     const double factor = milliseconds ? 1e-3 : 1;
-    return formatNumber(factor * fit.line.slope) + " ± " + formatNumber(factor * margin, 2) +
-           (milliseconds ? " ms" : " µs") + per;
+    return formatWithMargin(factor * fit.line.slope, factor * margin) + (milliseconds ? " ms" : " µs") + per;
+}
+
+std::string formatSetting(const Measurement& measurement) {
+    return formatNumber(measurement.value) + (measurement.unit.empty() ? "" : " " + measurement.unit);
 }
 
 std::string join(const std::vector<std::string>& words) {
@@ -106,6 +129,16 @@ std::string escapeHtml(std::string_view text) {
         }
     }
     return escaped;
+}
+
+std::string formatPassShares(const Results& results) {
+    std::vector<double> shares;
+    for (const Measurement& measurement : results.measurements) {
+        shares.push_back(measurement.passShare);
+    }
+    std::sort(shares.begin(), shares.end());
+    return formatNumber(100 * shares.front(), 4) + " to " + formatShare(shares.back(), 4) + " (median " +
+           formatShare(percentile(shares, 0.5), 4) + ")";
 }
 
 std::vector<std::string> seriesOf(const Results& results) {

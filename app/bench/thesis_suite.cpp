@@ -5,6 +5,7 @@
 #include "app/bench/thesis.hpp"
 #include "app/bench/views.hpp"
 #include "nacre/presets.hpp"
+#include "scene/import.hpp"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ namespace {
 constexpr Size fullSizes[] = {{1280, 720}, {1920, 1080}};
 constexpr Size quickSizes[] = {{256, 144}, {384, 216}};
 constexpr std::uint32_t quickShadowMapSize = 512;
-constexpr Size pictureSize = {960, 540};
+constexpr Size pictureSize = {800, 450};
 constexpr Size quickPictureSize = {640, 360};
 
 // Chapter 4.5.1 to 4.5.3.
@@ -22,6 +23,7 @@ constexpr int layersOfExperiment1[] = {1, 3, 6, 10};
 constexpr std::uint32_t radiusOfExperiment1 = 5; // 11 weights
 constexpr int firstRadius = 3;
 constexpr int mostLayers = 11;
+constexpr int quickStep = 5; // between radii, and between layers of experiment 3
 
 constexpr renderer::EffectSettings off{.scatter = false, .transmit = false};
 
@@ -47,6 +49,8 @@ private:
                                : std::vector<Size>(std::begin(fullSizes), std::end(fullSizes));
     }
 
+    int step() const { return settings_.quick ? quickStep : 1; }
+
     Configuration configure(const Variant& variant, const std::shared_ptr<const View>& view, const Size& size,
                             std::vector<Material> materials, double value) const {
         return {.technique = variant.technique,
@@ -66,9 +70,11 @@ private:
         return materials;
     }
 
-    // One material on everything, as in the second experiment.
-    std::vector<Material> everywhere(const Material& material) const {
-        return std::vector<Material>(views_.front->scene->materials.size(), material);
+    // "The same material was used throughout this test" (chapter 4.5.2): one for all bodies, so one pass pair.
+    std::shared_ptr<const View> withOneMaterial(const View& view) const {
+        auto scene = std::make_shared<scene::Scene>(*view.scene);
+        scene::assignMaterial(*scene, skin_);
+        return std::make_shared<View>(View{view.name + ", one material", scene, view.camera});
     }
 
     void addExperiment1(const std::string& side, const std::shared_ptr<const View>& view) {
@@ -84,14 +90,14 @@ private:
 
     void addExperiment2() {
         Series& series = plan_.series.emplace_back(Series{"experiment 2", "radius", "texels", {}});
+        const std::shared_ptr<const View> view = withOneMaterial(*views_.front);
         for (const Size& size : sizes()) {
-            const double millimeters = 1 / pixelsPerMillimeter(*views_.front, size);
-            for (int radius = firstRadius; radius <= thesis::largestRadius; ++radius) {
+            const double millimeters = 1 / pixelsPerMillimeter(*view, size);
+            for (int radius = firstRadius; radius <= thesis::largestRadius; radius += step()) {
                 const Material material = withKernelRadius(skin_, radius * millimeters);
-                for (Variant& variant : scatterVariants(*views_.front, size, static_cast<std::uint32_t>(radius))) {
+                for (Variant& variant : scatterVariants(*view, size, static_cast<std::uint32_t>(radius))) {
                     variant.effect.transmit = false;
-                    series.configurations.push_back(
-                        configure(variant, views_.front, size, everywhere(material), radius));
+                    series.configurations.push_back(configure(variant, view, size, {material}, radius));
                 }
             }
         }
@@ -101,7 +107,7 @@ private:
         Series& series = plan_.series.emplace_back(Series{"experiment 3", "layers", "", {}});
         for (const Size& size : sizes()) {
             for (const Variant& variant : transmitVariants()) {
-                for (int layers = 1; layers <= mostLayers; ++layers) {
+                for (int layers = 1; layers <= mostLayers; layers += step()) {
                     series.configurations.push_back(
                         configure(variant, views_.back, size, sceneMaterials(layers), layers));
                 }

@@ -214,5 +214,18 @@ TEST_F(Effect, EveryPassIsTimed) {
     }
 }
 
+TEST_F(Effect, FrameCanBeTimedAsAWhole) {
+    scene::Scene scene = slab(2, layered(0.5));
+    scene.lights.push_back(directional({0, 0, 1}, 3));
+    renderer::Renderer renderer = render(scene, effectSettings());
+    const renderer::Pixels byPass = renderer.read(Output::Color);
+    renderer.render(scene.cameras[0], renderer::Timing::Whole);
+    EXPECT_TRUE(renderer.report().passes.empty());
+    EXPECT_GT(renderer.report().totalMicroseconds, 0);
+    EXPECT_EQ(renderer.read(Output::Color).values, byPass.values);
+    renderer.render(scene.cameras[0]);
+    EXPECT_FALSE(renderer.report().passes.empty());
+}
+
 } // namespace
 } // namespace nacre::tests

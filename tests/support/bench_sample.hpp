@@ -67,7 +67,7 @@ inline Results emptyResults(const std::string& suite) {
             .created = "2026-01-02T03:04:05Z",
             .scene = "gallery",
             .machine = {"A device", "discrete", "driver 1", "1.3.0", "A processor", 8, {{"graphics", 1980, 1965}}},
-            .procedure = {.quick = false, .warmUpFrames = 3, .rounds = 100, .seconds = 12.5}};
+            .procedure = {.quick = false, .warmUpFrames = 3, .repetitions = 100, .seconds = 12.5}};
 }
 
 /// Experiment 2 for three techniques: two that are proportional to radius and pixels, and one that is flat.
@@ -102,9 +102,9 @@ inline Results paretoResults() {
     for (const char* view : {"head", "dragon"}) {
         for (const auto& setting : settings) {
             Measurement measurement =
-                measure("pareto", setting.technique, 1920, 1080, "taps", "taps", setting.taps, setting.time);
+                measure(std::string("pareto, ") + view, setting.technique, 1920, 1080, "taps", "taps", setting.taps,
+                        setting.time * (view == std::string("head") ? 1 : 4));
             measurement.view = view;
-            measurement.id += view;
             measurement.error = ImageError{.psnr = setting.psnr, .relMse = 0.001, .energyRatio = 1};
             results.measurements.push_back(measurement);
         }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,35 +14,69 @@
 using namespace nacre;
 using namespace nacre::bench;
 
+namespace {
+
+// A row of pixels.
+IdentifiedPicture rowOf(std::vector<float> pixels, std::vector<float> ids) {
+    return {static_cast<std::uint32_t>(ids.size()), 1, std::move(pixels), std::move(ids)};
+}
+
+// Of one colour, all with a material.
+IdentifiedPicture plain(float value) {
+    return rowOf(std::vector<float>(300, value), std::vector<float>(100, 1.0f));
+}
+
+} // namespace
+
 TEST(ImageError, OfAConstantDifferenceIsItsPsnr) {
-    const std::vector<float> reference(300, 1.0f);
-    const std::vector<float> picture(300, 1.01f);
-    const std::vector<float> ids(100, 1.0f);
-    const ImageError error = compareImages(picture, reference, ids);
+    const ImageError error = ReferencePicture(plain(1)).compare(plain(1.01f));
     EXPECT_NEAR(error.psnr, 40, 1e-3);
     EXPECT_NEAR(error.relMse, 1e-4 / 1.01, 1e-8);
     EXPECT_NEAR(error.energyRatio, 1.01, 1e-6);
 }
 
 TEST(ImageError, PeakFollowsTheReference) {
-    const std::vector<float> ids(100, 1.0f);
-    const ImageError error = compareImages(std::vector<float>(300, 10.1f), std::vector<float>(300, 10.0f), ids);
-    EXPECT_NEAR(error.psnr, 40, 1e-3);
+    EXPECT_NEAR(ReferencePicture(plain(10)).compare(plain(10.1f)).psnr, 40, 1e-3);
 }
 
 TEST(ImageError, CountsPixelsWithAMaterialOnly) {
-    const std::vector<float> reference(6, 1.0f);
-    const std::vector<float> picture{1, 1, 1, 9, 9, 9};
-    EXPECT_EQ(compareImages(picture, reference, std::vector{1.0f, 0.0f}).psnr, maxPsnr);
-    EXPECT_LT(compareImages(picture, reference, std::vector{0.0f, 1.0f}).psnr, 1);
-    EXPECT_THROW(compareImages(picture, reference, std::vector{0.0f, 0.0f}), std::invalid_argument);
-    EXPECT_THROW(compareImages(picture, reference, std::vector{1.0f}), std::invalid_argument);
+    const auto errorWith = [](const std::vector<float>& ids) {
+        return ReferencePicture(rowOf({1, 1, 1, 1, 1, 1}, ids)).compare(rowOf({1, 1, 1, 9, 9, 9}, ids));
+    };
+    EXPECT_EQ(errorWith({1, 0}).psnr, maxPsnr);
+    EXPECT_LT(errorWith({0, 1}).psnr, 1);
+    EXPECT_THROW(errorWith({0, 0}), std::invalid_argument);
+    EXPECT_THROW(errorWith({1}), std::invalid_argument);
 }
 
 TEST(ImageError, TakesNaNForBlack) {
-    const std::vector<float> reference(3, 1.0f);
-    const std::vector<float> picture{1, std::numeric_limits<float>::quiet_NaN(), 1};
-    EXPECT_NEAR(compareImages(picture, reference, std::vector{1.0f}).energyRatio, 2.0 / 3, 1e-12);
+    const IdentifiedPicture picture = rowOf({1, std::numeric_limits<float>::quiet_NaN(), 1}, {1});
+    EXPECT_NEAR(ReferencePicture(rowOf({1, 1, 1}, {1})).compare(picture).energyRatio, 2.0 / 3, 1e-12);
+}
+
+TEST(ImageError, EnlargesBetweenPixelsOfTheSameMaterial) {
+    const IdentifiedPicture small = rowOf({0, 0, 0, 4, 4, 4, 100, 100, 100}, {1, 1, 2});
+    const IdentifiedPicture large = rowOf(std::vector<float>(18), {1, 1, 1, 1, 2, 3});
+    std::vector<float> red;
+    const std::vector<float> enlarged = enlarge(small, large);
+    for (std::size_t i = 0; i < enlarged.size(); i += 3) {
+        red.push_back(enlarged[i]);
+    }
+    EXPECT_EQ(red, (std::vector<float>{0, 1, 3, 4, 100, 100}));
+}
+
+TEST(ImageError, OfALinearPictureEnlargedIsNone) {
+    IdentifiedPicture small{8, 8, {}, std::vector<float>(64, 1.0f)};
+    IdentifiedPicture large{16, 16, {}, std::vector<float>(256, 1.0f)};
+    for (IdentifiedPicture* picture : {&small, &large}) {
+        const float side = static_cast<float>(picture->width);
+        for (std::uint32_t i = 0; i < picture->width * picture->height; ++i) {
+            // The outermost pixels have no neighbour beyond them: flat there.
+            const float x = std::clamp((float(i % picture->width) + 0.5f) / side, 1 / 16.0f, 15 / 16.0f);
+            picture->pixels.insert(picture->pixels.end(), 3, x);
+        }
+    }
+    EXPECT_GT(ReferencePicture(large).compare(small).psnr, 120);
 }
 
 TEST(Materials, HaveTheLayersAskedForAndStayValid) {

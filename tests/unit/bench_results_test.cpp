@@ -63,7 +63,7 @@ Results sample() {
         .created = "2026-01-02T03:04:05Z",
         .scene = "gallery",
         .machine = {"A device", "discrete", "driver 1", "1.3.0", "A processor", 8, {{"graphics", 1980, 1965}}},
-        .procedure = {.quick = true, .warmUpFrames = 3, .rounds = 100, .seconds = 12.5},
+        .procedure = {.quick = true, .warmUpFrames = 3, .repetitions = 100, .seconds = 12.5},
         .noiseFloors = {{"id", "experiment 2", times(100), times(101), 0.01}},
         .measurements = {},
         .fits = {},
@@ -81,7 +81,7 @@ Results sample() {
                             .unit = "texels",
                             .quantity = "effect",
                             .line = line,
-                            .growth = 7.0 / 3,
+                            .spread = 7.0 / 3,
                             .noise = 0.02});
     return results;
 }
@@ -246,7 +246,7 @@ TEST(Diff, FindsWhatGotSlower) {
 TEST(Diff, KeepsToTheLargerNoiseFloor) {
     Results after = sample();
     after.measurements[1].effect = times(1.1 * after.measurements[1].effect.median);
-    after.measurements[1].noise = 0.15;
+    after.measurements[0].noise = 0.15; // of any configuration
     EXPECT_FALSE(compare(sample(), after).regressed());
 }
 

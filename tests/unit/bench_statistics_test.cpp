@@ -154,10 +154,18 @@ TEST(Line, RefusesWhatHasNoSlope) {
 
 TEST(Line, FlatIsWhatMayBeZeroOrIsLostInTheNoise) {
     const Line noisy = fitLine(oneTo(5), std::vector<double>{10, 11, 10, 9, 10});
-    EXPECT_TRUE(isFlat(noisy, 10, 4, 0));
+    EXPECT_TRUE(isFlat(noisy, 4, 9, 9.8, 0));
     const Line certain = fitLine(oneTo(5), std::vector<double>{10.0, 10.02, 10.04, 10.06, 10.08});
-    EXPECT_FALSE(isFlat(certain, 10, 4, 0.005));
-    EXPECT_TRUE(isFlat(certain, 10, 4, 0.01));
+    EXPECT_FALSE(isFlat(certain, 4, 10, 10.08, 0.005));
+    EXPECT_TRUE(isFlat(certain, 4, 10, 10.08, 0.01));
+}
+
+TEST(Line, WhatRisesAndLevelsOffIsNotFlat) {
+    const std::vector<double> x{1, 2, 4, 8, 16, 32, 64, 128};
+    const Line line = fitLine(x, std::vector<double>{10, 20, 30, 40, 40, 40, 40, 38});
+    ASSERT_LE(line.slopeLow, 0);
+    EXPECT_FALSE(isFlat(line, 127, 10, 40, 0.02));
+    EXPECT_TRUE(isFlat(line, 127, 38, 40, 0.02));
 }
 
 TEST(NoiseFloor, IsTheDifferenceOfTheTwoOrTheirWidth) {

@@ -97,6 +97,27 @@ TEST_F(Image, ExrOfOneChannelIsGrey) {
     }
 }
 
+TEST_F(Image, JpegStaysNear) {
+    constexpr std::uint32_t side = 64;
+    std::vector<std::uint8_t> pixels;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const auto ramp = static_cast<std::uint8_t>(2 * (i % side) + 2 * (i / side));
+        pixels.insert(pixels.end(), {ramp, static_cast<std::uint8_t>(255 - ramp), 128});
+    }
+    writeJpeg(folder / "a.jpg", side, side, pixels);
+    const Texture texture = readTexture(folder / "a.jpg", true);
+    ASSERT_EQ(texture.width, side);
+    ASSERT_EQ(texture.height, side);
+    for (std::size_t i = 0; i < std::size_t{side} * side; ++i) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(texture.pixels[4 * i + channel], pixels[3 * i + channel], 8) << i;
+        }
+    }
+    EXPECT_NE(errorOf([&] { writeJpeg(folder / "b.jpg", side, side, pattern(5)); }), "");
+    EXPECT_NE(errorOf([&] { writeJpeg(folder / "b.jpg", 70000, 1, pattern(210000)); }), "");
+    EXPECT_EQ(fileCount(), 1u);
+}
+
 TEST_F(Image, HdrDecodesItsSharedExponent) {
     std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
     text += std::string("\x80\x40\x00\x81", 4) + std::string("\x80\x80\x80\x78", 4);

@@ -91,6 +91,15 @@
   const drawn = Array.from(document.querySelectorAll("canvas[data-chart]"),
                            (canvas) => draw(canvas, data[Number(canvas.dataset.chart)]));
 
+  // "report.html#plot-2" is that plot alone, for documents that show it as a picture.
+  const alone = document.querySelector(`canvas[data-chart="${location.hash.replace(/^#plot-/, "")}"]`);
+  if (location.hash.startsWith("#plot-") && alone) {
+    const figure = alone.closest("figure");
+    figure.querySelector("h3").textContent = alone.getAttribute("aria-label");
+    document.body.replaceChildren(figure);
+    document.body.classList.add("alone");
+  }
+
   document.querySelectorAll(".pair").forEach((pair) => {
     const slider = pair.querySelector("input");
     const move = () => pair.style.setProperty("--split", slider.value + "%");
@@ -98,5 +107,10 @@
     move();
   });
 
+  const pictures = Array.from(document.images).filter((image) => image.complete && image.naturalWidth > 0);
+  document.documentElement.dataset.pictures = String(pictures.length);
+  const cut = Array.from(document.querySelectorAll(".scroll"))
+    .filter((table) => !table.closest("details") && table.scrollWidth > table.clientWidth);
+  document.documentElement.dataset.cutTables = String(cut.length);
   document.documentElement.dataset.drawn = String(drawn.length);
 })();
