@@ -59,7 +59,6 @@ struct Context {
     std::uint32_t maxLights = 0;
     std::array<bool, techniqueCount> enabled{};
 
-    Owned<VkSampler> nearestSampler; ///< immutable in the scatter layout
     Programs scatter;
     Programs transmit;
     std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass, then materialPasses

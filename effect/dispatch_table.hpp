@@ -13,9 +13,9 @@ namespace nacre::effect {
     X(AllocateDescriptorSets) X(AllocateMemory) X(BindBufferMemory) X(BindImageMemory) X(CmdBindDescriptorSets) \
     X(CmdBindPipeline) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdPipelineBarrier) X(CmdPushConstants) \
     X(CmdWriteTimestamp) X(CreateBuffer) X(CreateComputePipelines) X(CreateDescriptorPool) X(CreateDescriptorSetLayout) X(CreateImage) \
-    X(CreateImageView) X(CreatePipelineLayout) X(CreateSampler) X(CreateShaderModule) X(DestroyBuffer) X(DestroyDescriptorPool) \
+    X(CreateImageView) X(CreatePipelineLayout) X(CreateShaderModule) X(DestroyBuffer) X(DestroyDescriptorPool) \
     X(DestroyDescriptorSetLayout) X(DestroyImage) X(DestroyImageView) X(DestroyPipeline) X(DestroyPipelineLayout) \
-    X(DestroySampler) X(DestroyShaderModule) X(FreeMemory) X(GetBufferMemoryRequirements) X(GetImageMemoryRequirements) X(MapMemory) \
+    X(DestroyShaderModule) X(FreeMemory) X(GetBufferMemoryRequirements) X(GetImageMemoryRequirements) X(MapMemory) \
     X(UpdateDescriptorSets)
 // clang-format on
 

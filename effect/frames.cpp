@@ -18,7 +18,6 @@ Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t recordCou
     constexpr auto intermediateBindings = static_cast<std::uint32_t>(intermediateCount);
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count(2)},
-        {VK_DESCRIPTOR_TYPE_SAMPLER, count(1)},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count(5 + 2 * intermediateBindings)},
         {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count(11 + maxShadowMaps)},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count(3 + 2 * intermediateBindings)},

@@ -20,7 +20,6 @@ constexpr Binding scatterBindings[] = {
     {bindingIrradiance, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
     {bindingAlbedo, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
     {bindingScattered, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-    {bindingNearestSampler, VK_DESCRIPTOR_TYPE_SAMPLER},
 };
 constexpr Binding transmitBindings[] = {
     {bindingThickness, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
@@ -34,14 +33,6 @@ VkDescriptorType descriptorType(const IntermediateInfo& info) {
     return info.format == VK_FORMAT_UNDEFINED ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
-Owned<VkSampler> createNearestSampler(const Device& device) {
-    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(device.vk.CreateSampler(device.handle, &info, device.allocator, &sampler), "vkCreateSampler");
-    return {device, sampler, device.vk.DestroySampler};
-}
-
 void createLayout(Context& context, Programs& programs, std::span<const Binding> own) {
     std::vector<Binding> bindings(std::begin(commonBindings), std::end(commonBindings));
     bindings.insert(bindings.end(), own.begin(), own.end());
@@ -51,10 +42,8 @@ void createLayout(Context& context, Programs& programs, std::span<const Binding>
         }
     }
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
-    const VkSampler sampler = context.nearestSampler.get();
     for (const Binding& binding : bindings) {
-        layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT,
-                                  binding.type == VK_DESCRIPTOR_TYPE_SAMPLER ? &sampler : nullptr});
+        layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     const Device& device = context.device;
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
@@ -107,7 +96,6 @@ constexpr VkSpecializationMapEntry separateEntry{0, 0, sizeof(separateMaterials)
 constexpr VkSpecializationInfo separateConstants{1, &separateEntry, sizeof(separateMaterials), &separateMaterials};
 
 void createPrograms(Context& context, VkPipelineCache cache) {
-    context.nearestSampler = createNearestSampler(context.device);
     createLayout(context, context.scatter, scatterBindings);
     createLayout(context, context.transmit, transmitBindings);
     for (std::size_t i = 0; i < techniqueCount; ++i) {

@@ -31,10 +31,6 @@ float pixelWidth(const ViewParameters& view) {
     return std::sqrt(std::abs(x.x * y.y - x.y * y.x)) / std::abs(perspective ? view.clipW.x : view.clipW.y);
 }
 
-vec2 texelSize(VkExtent2D extent) {
-    return {1 / static_cast<float>(extent.width), 1 / static_cast<float>(extent.height)};
-}
-
 void setTechnique(ScatterParameters& parameters, const Context& context, const NacreScatterInfo& info) {
     constexpr std::uint32_t defaultBudget = 64;
     constexpr std::uint32_t largestBudget = 256;
@@ -88,8 +84,6 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     parameters.pixelWidth = pixelWidth(view);
     setTechnique(parameters, context, info);
     setBankLevels(parameters, area.extent);
-    parameters.depthTexelSize = texelSize(info.depth.extent);
-    parameters.materialIdTexelSize = texelSize(info.materialId.extent);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
 
     // From here on nothing fails.

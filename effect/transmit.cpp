@@ -7,6 +7,7 @@
 
 #include "transmit.spv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -17,12 +18,21 @@ namespace {
 /// The thickness at which the table ends lets this share of the light through.
 constexpr double tableEndShare = 1e-4;
 
+void setLayers(TransmitTable& table, std::span<const Layer> layers) {
+    constexpr double leastVariance = 1e-12; // mm²: a point mass lets light through no thickness at all
+    table.end.y = static_cast<float>(layers.size());
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        table.layers[i] = toVec4(layers[i].weight, 1 / std::max(layers[i].variance, leastVariance));
+    }
+}
+
 void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
     TransmitTable table{};
     const double end = profile.quantileRadius(1 - tableEndShare);
-    // exp(-d²/v) is exp(-(√2·d)²/2v): the thesis's form is the slab's at √2 times the thickness.
-    const bool isLayered = dynamic_cast<const SumOfGaussiansProfile*>(&profile) != nullptr;
-    table.end = {static_cast<float>(end), isLayered ? std::numbers::sqrt2_v<float> : 1.0f, 0, 0};
+    table.end = {static_cast<float>(end), 0, 0, 0};
+    if (const auto* layered = dynamic_cast<const SumOfGaussiansProfile*>(&profile)) {
+        setLayers(table, layered->layers());
+    }
     for (std::size_t i = 0; i + 1 < transmittanceEntries; ++i) {
         const double share = static_cast<double>(i) / (transmittanceEntries - 1);
         const auto value = [&](int channel) {

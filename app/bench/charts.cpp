@@ -15,7 +15,9 @@ namespace {
 constexpr SeriesText seriesTexts[] = {
     {"experiment 1, front", "Experiment 1, front-lit (thesis, figure 4.3)",
      "Both effects together against the number of layers; kernel of 11 weights. The thesis's text states no times for "
-     "this figure. Here layers are summed when a material is set, not while a pixel is drawn.",
+     "this figure. The thesis's translucency adds up the layers in every pixel; the others' reads them, added up when "
+     "the "
+     "material is set, from a table over thickness.",
      false},
     {"experiment 1, back", "Experiment 1, back-lit (thesis, figure 4.3)",
      "Both effects together against the number of layers, the lights behind the bodies.", false},
@@ -25,8 +27,9 @@ constexpr SeriesText seriesTexts[] = {
      false},
     {"experiment 3", "Experiment 3: back-lit translucency (thesis, figure 4.7)",
      "Translucency alone against the number of layers. The thesis's text states no times for this figure, but that its "
-     "shader adds up the layers of every pixel; here they are added up when a material is set, into a table over "
-     "thickness.",
+     "shader adds up the layers of every pixel, as `thesis` does here; `slab` reads them, added up when the material "
+     "is "
+     "set, from a table over thickness.",
      false},
     {"resolution", "Resolution", "The same view at growing picture sizes.", false},
     {"coverage", "Coverage", "The share of the picture that has a subsurface material.", false},

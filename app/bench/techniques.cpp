@@ -30,8 +30,11 @@ Size shrunk(const Size& size, double share) {
 } // namespace
 
 std::vector<Variant> scatterVariants(const View& view, const Size& size, std::uint32_t radius) {
-    return {{"thesis", thesisSettings(view, size, radius, false)},
-            {"thesis-baked", thesisSettings(view, size, radius, true)},
+    EffectSettings thesis = thesisSettings(view, size, radius, false);
+    EffectSettings baked = thesisSettings(view, size, radius, true);
+    thesis.thesisTransmittance = baked.thesisTransmittance = true;
+    return {{"thesis", thesis},
+            {"thesis-baked", baked},
             {"separable", {.technique = Technique::Separable}},
             {"burley", {.technique = Technique::Burley}},
             {"bank", {.technique = Technique::Bank}}};

@@ -29,15 +29,12 @@ ivec2 pixelOf(ivec2 first, int i) {
 }
 
 Fetched fetchPixels(ivec2 first) {
-    vec2 corner = vec2(first + view.areaOffset + 1);
-    // Counter-clockwise from the lower left.
-    uvec4 ids = textureGather(usampler2D(materialIdImage, nearestSampler), corner * parameters.materialIdTexelSize);
-    vec4 depths = textureGather(sampler2D(depthImage, nearestSampler), corner * parameters.depthTexelSize);
     Fetched fetched;
-    fetched.id = uint[](ids.w, ids.z, ids.x, ids.y);
-    fetched.depth = float[](depths.w, depths.z, depths.x, depths.y);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        fetched.light[i] = texelFetch(irradianceImage, pixelOf(first, i), 0).rgb;
+        ivec2 pixel = pixelOf(first, i);
+        fetched.id[i] = texelFetch(materialIdImage, pixel, 0).r;
+        fetched.depth[i] = texelFetch(depthImage, pixel, 0).r;
+        fetched.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
     }
     return fetched;
 }

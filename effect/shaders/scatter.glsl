@@ -16,7 +16,6 @@ layout(set = 0, binding = bindingNormal) uniform texture2D normalImage;
 layout(set = 0, binding = bindingStrength) uniform texture2D strengthImage;
 layout(set = 0, binding = bindingIrradiance) uniform texture2D irradianceImage;
 layout(set = 0, binding = bindingAlbedo) uniform texture2D albedoImage;
-layout(set = 0, binding = bindingNearestSampler) uniform sampler nearestSampler;
 layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredImage;
 
 #define view parameters.view

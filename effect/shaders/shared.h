@@ -54,7 +54,6 @@ NACRE_CONSTANT bindingLights = 11;     // transmit, storage: LightParameters[]
 NACRE_CONSTANT bindingShadowMaps = 12; // transmit, array of maxShadowMaps
 NACRE_CONSTANT bindingTransmitted = 13;  // transmit, output
 NACRE_CONSTANT bindingThicknessOut = 14; // transmit, output
-NACRE_CONSTANT bindingNearestSampler = 15; // scatter, clamps to the edge; for gathers
 NACRE_CONSTANT bindingIntermediates = 16; // + Intermediate
 
 // The order of enum class Intermediate (pass_table.hpp), for layout(binding = bindingIntermediates + ...).
@@ -107,10 +106,7 @@ struct ScatterParameters {
     uint burleyRotation;
     uint thesisRadius; // taps on either side
     float thesisStrength;
-    float unused0;
-    vec2 depthTexelSize; // 1 / size of the image
-    vec2 materialIdTexelSize;
-    float unused1, unused2;
+    float unused0, unused1, unused2;
     // Of `bank`, per level of the pyramid from 1 on: its first texel, width, height, and first block of the blur.
     ivec4 bankLevels[7];
 };
@@ -186,11 +182,13 @@ NACRE_FUNCTION uint thesisKernelStart(uint radius) {
     return (radius - 1u) * (radius + 2u) / 2u;
 }
 
-// Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0.
+// Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0. And the profile's layers,
+// for thesisTransmittance: weights, and 1/mm² of variance in w.
 NACRE_CONSTANT transmittanceEntries = 127;
 struct TransmitTable {
-    vec4 end; // x: mm; y: what thesisTransmittance multiplies distances with
+    vec4 end; // x: mm; y: number of layers, 0 = Burley's profile
     vec4 transmittance[transmittanceEntries];
+    vec4 layers[maxLayers];
 };
 
 // A light of nacreCmdTransmit; world space, scene units.
@@ -212,8 +210,8 @@ struct LightParameters {
 static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
               offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
               sizeof(ViewParameters) == 240);
-static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(ScatterParameters, depthTexelSize) == 264 &&
-              offsetof(ScatterParameters, bankLevels) == 288 && sizeof(ScatterParameters) == 288 + 7 * sizeof(ivec4));
+static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(ScatterParameters, bankLevels) == 272 &&
+              sizeof(ScatterParameters) == 272 + 7 * sizeof(ivec4));
 static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
 static_assert(offsetof(MaterialParameters, exchangeGroups) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
@@ -221,7 +219,7 @@ static_assert(sizeof(BrutePixel) == 48);
 static_assert(sizeof(BankDispatch) == 16);
 static_assert(offsetof(BurleyTable, radial) == 32 && sizeof(BurleyTable) == 16 * (2 + 2 * burleyEntries));
 static_assert(thesisKernelStart(1) == 0 && thesisKernelStart(thesisMaxRadius + 1) == thesisTaps);
-static_assert(sizeof(TransmitTable) == 16 * 128);
+static_assert(sizeof(TransmitTable) == 16 * (1 + transmittanceEntries + maxLayers));
 static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 && offsetof(LightParameters, shadowSize) == 136 &&
               sizeof(LightParameters) == 144);
 

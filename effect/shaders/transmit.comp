@@ -140,14 +140,27 @@ float storedDepth(uint map, ivec3 texel) {
     return value;
 }
 
-// Slab transmittance of a profile at a thickness in mm.
+// Σ w·exp(−d²/v), the thesis's own form, added up layer by layer as in its shader.
+vec3 layerTransmittance(uint material, float thickness, uint layerCount) {
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < layerCount; ++i) {
+        vec4 layer = tables[material].layers[i];
+        sum += layer.rgb * exp(-thickness * thickness * layer.w);
+    }
+    return sum;
+}
+
+// Transmittance of a slab of a thickness in mm.
 vec3 transmittance(uint material, float thickness) {
+    uint layerCount = uint(tables[material].end.y);
+    if (hasFlag(flagThesisTransmittance) && layerCount != 0u) {
+        return layerTransmittance(material, thickness, layerCount);
+    }
     float end = tables[material].end.x;
-    float scale = hasFlag(flagThesisTransmittance) ? tables[material].end.y : 1.0;
     if (end <= 0.0) {
         return vec3(thickness > 0.0 ? 0.0 : 1.0);
     }
-    float position = sqrt(min(thickness * scale / end, 1.0)) * float(transmittanceEntries - 1u);
+    float position = sqrt(min(thickness / end, 1.0)) * float(transmittanceEntries - 1u);
     uint index = min(uint(position), transmittanceEntries - 2u);
     return mix(tables[material].transmittance[index].rgb, tables[material].transmittance[index + 1u].rgb,
                position - float(index));

@@ -317,15 +317,15 @@ typedef struct NacreTransmitInfo {
     float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
     VkBool32 thesisTransmittance; /**< materials of layers: T = sum w exp(-d²/v), the thesis's own form, in place of
-                                       exp(-d²/2v) */
+                                       exp(-d²/2v), added up layer by layer in every pixel as in its shader */
     NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none */
     NacreImage thicknessOut;      /**< optional output, red: the thickness used, mm, smallest over the lights that
                                        reach the pixel from behind; 0 = none */
     NacreTimestamps timestamps;
 } NacreTransmitInfo;
 
-/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers and, but for
- *  dispatchesPerMaterial, of materials. */
+/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers (but
+ *  for the time of thesisTransmittance) and, but for dispatchesPerMaterial, of materials. */
 typedef struct NacreCost {
     uint32_t dispatchCount;         /**< with the materials set so far */
     uint32_t dispatchesPerMaterial; /**< how many of them each material takes: 2 for NACRE_TECHNIQUE_THESIS, else 0 */
