@@ -202,7 +202,8 @@ void Effect::setMaterials(std::span<const Material> materials) {
 
 std::vector<Float4> Effect::scatter(const ScatterInput& input, NacreTechnique technique,
                                     const ScatterFormats& formats) {
-    return scatter(input, [technique](NacreScatterInfo& info) { info.technique = technique; }, formats);
+    return scatter(
+        input, [technique](NacreScatterInfo& info) { info.technique = technique; }, formats);
 }
 
 std::vector<Float4> Effect::scatter(const ScatterInput& input, const std::function<void(NacreScatterInfo&)>& set,

@@ -87,6 +87,8 @@ public:
     /// As run, with a query pool of `count` timestamps; returns the microseconds between them.
     std::vector<double> runTimed(std::uint32_t count, const std::function<void(VkCommandBuffer, VkQueryPool)>& record);
 
+    /// The first of these memory types with these properties; throws where there is none.
+    std::uint32_t memoryType(std::uint32_t bits, VkMemoryPropertyFlags wanted) const;
     /// A context's info with this device filled in.
     NacreContextInfo contextInfo(VkExtent2D maxExtent) const;
 
@@ -101,7 +103,6 @@ public:
 private:
     struct Staging;
     Staging createStaging(VkDeviceSize size);
-    std::uint32_t memoryType(std::uint32_t bits, VkMemoryPropertyFlags properties) const;
     void transition(VkCommandBuffer commandBuffer, const GpuImage& image, VkImageLayout from, VkImageLayout to) const;
 
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
