@@ -71,12 +71,16 @@ GpuImage& GpuImage::operator=(GpuImage&& other) noexcept {
     std::swap(extent, other.extent);
     std::swap(usage, other.usage);
     std::swap(layers, other.layers);
+    std::swap(layerViews, other.layerViews);
     return *this;
 }
 
 GpuImage::~GpuImage() {
     if (gpu) {
         vkDestroyImageView(gpu->device, view, nullptr);
+        for (const VkImageView layer : layerViews) {
+            vkDestroyImageView(gpu->device, layer, nullptr);
+        }
         vkDestroyImage(gpu->device, image, nullptr);
         vkFreeMemory(gpu->device, memory, nullptr);
     }
@@ -233,6 +237,12 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     viewInfo.format = settings.format;
     viewInfo.subresourceRange = {aspectOf(settings.format), 0, 1, 0, settings.layers};
     check(vkCreateImageView(device, &viewInfo, nullptr, &result.view), "vkCreateImageView");
+    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    viewInfo.subresourceRange.layerCount = 1;
+    for (std::uint32_t layer = 0; settings.layerViews && layer < settings.layers; ++layer) {
+        viewInfo.subresourceRange.baseArrayLayer = layer;
+        check(vkCreateImageView(device, &viewInfo, nullptr, &result.layerViews.emplace_back()), "vkCreateImageView");
+    }
     run([&](VkCommandBuffer commandBuffer) {
         transition(commandBuffer, result, VK_IMAGE_LAYOUT_UNDEFINED, result.layout);
     });
