@@ -68,6 +68,11 @@ std::vector<Float4> downloadLight(Gpu& gpu, const GpuImage& image) {
     }
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         return converted<Float4>(gpu.download<std::uint32_t>(image), fromB10G11R11);
+    case VK_FORMAT_R32_SFLOAT:
+        return converted<Float4>(gpu.download<float>(image), [](float value) { return Float4{value}; });
+    case VK_FORMAT_R16_SFLOAT:
+        return converted<Float4>(gpu.download<std::uint16_t>(image),
+                                 [](std::uint16_t half) { return Float4{fromHalf(half)}; });
     default:
         return gpu.download<Float4>(image);
     }

@@ -27,7 +27,7 @@ struct Projection {
 /// A view of the whole image with an identity camera, linear depth and millimetres.
 NacreView makeView(const Projection& projection);
 
-/// Fills an image of one of the irradiance's formats, and reads one back.
+/// Fills an image of one of the irradiance's formats; reads back one of them, or of one channel.
 void uploadLight(Gpu& gpu, GpuImage& image, const std::vector<Float4>& light);
 std::vector<Float4> downloadLight(Gpu& gpu, const GpuImage& image);
 /// The same for ids.
