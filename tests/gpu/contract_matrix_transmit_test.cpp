@@ -32,11 +32,11 @@ protected:
     }
     GpuImage shadowMap() {
         GpuImage image = gpu.createImage({.format = VK_FORMAT_R32_SFLOAT,
-                                          .extent = {18, 18},
+                                          .extent = {70, 70},
                                           .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
                                           .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                           .array = true});
-        gpu.upload(image, std::vector<float>(18 * 18, entry));
+        gpu.upload(image, std::vector<float>(70 * 70, entry));
         return image;
     }
     Pictures transmit(MatrixImages& images, const NacreImage& map) {
