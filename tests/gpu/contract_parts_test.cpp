@@ -201,6 +201,7 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
     const ScatterInput input = scene(true);
     NacreScatterInfo scatter{};
     scatter.view = input.view;
+    scatter.depth.extent = scatter.materialId.extent = extent;
     NacreLight light{};
     light.direction[2] = 1;
     light.shadowMap = NACRE_NO_SHADOW_MAP;
@@ -219,6 +220,7 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
     const auto noArea = changed(scatter, [](auto& i) { i.view.renderArea = {}; });
     const auto baked = changed(scatter, [](auto& i) { i.thesisBakedKernel = VK_TRUE; });
     const auto badClip = changed(scatter, [](auto& i) { i.view.clipFromView[5] = nan; });
+    const auto noDepth = changed(scatter, [](auto& i) { i.depth.extent = {}; });
     const auto badOffset = changed(transmit, [](auto& i) { i.normalOffset = -1; });
     const auto noLights = changed(transmit, [](auto& i) { i.lights = nullptr; });
     NacreLight badLight = light;
@@ -247,6 +249,8 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
          NACRE_ERROR_INVALID_ARGUMENT, "images is 0x80"},
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&noArea, 0, 0, m, size, to); },
          NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::view.renderArea.extent is 0x0"},
+        {[&](auto* m, void* to) { return nacreFillScatterParameters(&noDepth, 0, 0, m, size, to); },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::depth.extent is 0x0, the render area reaches to 55x36"},
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&baked, 0, 0, m, size, to); },
          NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisBakedKernel is 1"},
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&badClip, 0, 0, m, size, to); },

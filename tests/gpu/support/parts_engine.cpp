@@ -54,9 +54,12 @@ PartsEngine::~PartsEngine() {
         vkDestroyBuffer(gpu_.device, buffer.buffer, nullptr);
         vkFreeMemory(gpu_.device, buffer.memory, nullptr);
     }
-    for (const VkPipeline pipeline : pipelines_) {
-        vkDestroyPipeline(gpu_.device, pipeline, nullptr);
+    for (const std::vector<VkPipeline>& pipelines : pipelines_) {
+        for (const VkPipeline pipeline : pipelines) {
+            vkDestroyPipeline(gpu_.device, pipeline, nullptr);
+        }
     }
+    vkDestroySampler(gpu_.device, sampler_, nullptr);
     vkDestroyDescriptorPool(gpu_.device, pool_, nullptr);
     vkDestroyPipelineLayout(gpu_.device, layout_, nullptr);
     vkDestroyDescriptorSetLayout(gpu_.device, setLayout_, nullptr);
@@ -75,6 +78,9 @@ void PartsEngine::createLayouts() {
         layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT});
     }
     // [end]
+    VkSamplerCreateInfo samplerInfo{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO}; // nearest
+    samplerInfo.addressModeU = samplerInfo.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    check(vkCreateSampler(device, &samplerInfo, nullptr, &sampler_));
     VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     setInfo.bindingCount = count;
     setInfo.pBindings = layoutBindings.data();
@@ -93,18 +99,24 @@ void PartsEngine::createPipelines() {
     check(nacreGetPasses(technique_, maxExtent_, &count, nullptr));
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, maxExtent_, &count, passes.data()));
-    for (const NacrePass& pass : passes) {
-        VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-        moduleInfo.codeSize = pass.spirvSize;
-        moduleInfo.pCode = pass.spirv;
-        VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-        info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-        info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-        info.stage.pName = "main";
-        info.layout = layout_;
-        check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &info.stage.module));
-        check(vkCreateComputePipelines(gpu_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipelines_.emplace_back()));
-        vkDestroyShaderModule(gpu_.device, info.stage.module, nullptr);
+    for (const VkBool32 separate : {VK_FALSE, VK_TRUE}) {
+        for (const NacrePass& pass : passes) {
+            VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+            moduleInfo.codeSize = pass.spirvSize;
+            moduleInfo.pCode = pass.spirv;
+            const VkSpecializationMapEntry entry{0, 0, sizeof(separate)};
+            const VkSpecializationInfo constants{1, &entry, sizeof(separate), &separate};
+            VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+            info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+            info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+            info.stage.pName = "main";
+            info.stage.pSpecializationInfo = pass.asksMaterials ? &constants : nullptr;
+            info.layout = layout_;
+            check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &info.stage.module));
+            VkPipeline& pipeline = pipelines_[separate].emplace_back();
+            check(vkCreateComputePipelines(gpu_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
+            vkDestroyShaderModule(gpu_.device, info.stage.module, nullptr);
+        }
     }
 }
 
@@ -193,7 +205,7 @@ void PartsEngine::bind(const NacreBinding& binding, std::span<const NacreImage> 
             const NacreImage& image = binding.intermediate ? images_.at(binding.binding).nacre()
                                       : isGiven            ? images[i]
                                                            : fallback;
-            imageInfos.push_back({VK_NULL_HANDLE, image.view, image.layout});
+            imageInfos.push_back({sampler_, image.view, image.layout}); // whichever the type takes
         }
         write.pImageInfo = imageInfos.data();
     }
@@ -251,7 +263,8 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
 }
 
 void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area) {
-    std::uint32_t count = static_cast<std::uint32_t>(pipelines_.size());
+    const std::vector<VkPipeline>& pipelines = pipelines_[separate_];
+    std::uint32_t count = static_cast<std::uint32_t>(pipelines.size());
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, area, &count, passes.data()));
     vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
@@ -283,7 +296,7 @@ void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area) {
         }
         read |= pass.reads;
         written |= pass.writes;
-        vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[i]);
+        vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines[i]);
         if (pass.indirectBinding != 0) {
             vkCmdDispatchIndirect(commandBuffer, bufferAt(pass.indirectBinding), pass.indirectOffset);
         } else {

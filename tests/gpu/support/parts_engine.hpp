@@ -46,7 +46,8 @@ private:
     std::vector<NacreBinding> bindings_;
     std::map<std::string, Buffer> buffers_;
     std::map<std::uint32_t, GpuImage> images_; ///< intermediates by binding
-    std::vector<VkPipeline> pipelines_;
+    std::vector<VkPipeline> pipelines_[2];     ///< by separate_
+    VkSampler sampler_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
