@@ -6,7 +6,7 @@ using namespace nacre::tests;
 namespace {
 
 TEST_F(MatrixTest, BankFollowsBrute) {
-    expectFollows(NACRE_TECHNIQUE_BANK, 0.04, matrixFormats());
+    expectFollows(NACRE_TECHNIQUE_BANK, 0.03, matrixFormats());
 }
 
 } // namespace
