@@ -114,9 +114,6 @@ void createFrames(Context& context, std::uint32_t frames, std::uint32_t recordsP
 /// The next unused record of a kind; throws when the frame was not begun or has none left.
 Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info);
 
-/// The radius or, for 0, the default; throws a Failure naming `field` (scatter_thesis.cpp).
-std::uint32_t thesisRadius(std::uint32_t radius, const char* field);
-
 /// The index in `techniques` of a technique the context is made for; throws a Failure naming `field` (scatter.cpp).
 std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique technique, const char* field);
 

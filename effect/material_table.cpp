@@ -1,62 +1,12 @@
 #include "material_table.hpp"
 
 #include "failure.hpp"
+#include "material.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace nacre::effect {
-namespace {
-
-std::string fieldName(std::uint32_t id, const std::string& field) {
-    return "NacreMaterial::" + field + " of material " + std::to_string(id);
-}
-
-/// The library's material of the caller's; checks what core cannot see.
-Material convert(std::uint32_t id, const NacreMaterial& from) {
-    if (from.layerCount > NACRE_MAX_LAYERS) {
-        fail(NACRE_ERROR_LIMIT_EXCEEDED, fieldName(id, "layerCount"), " is ", from.layerCount, ", at most ",
-             NACRE_MAX_LAYERS);
-    }
-    if (from.layerCount > 0 && !from.layers) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, fieldName(id, "layers"), " is null, layerCount is ", from.layerCount);
-    }
-    if (from.albedoUse != NACRE_ALBEDO_POST && from.albedoUse != NACRE_ALBEDO_PRE_AND_POST) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, fieldName(id, "albedoUse"), " is ", static_cast<int>(from.albedoUse));
-    }
-    if (!std::isfinite(from.thickness) || from.thickness < 0) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, fieldName(id, "thickness"), " is ", from.thickness,
-             " mm, must be finite and not negative");
-    }
-    Material material;
-    for (const NacreLayer& layer : std::span(from.layers, from.layerCount)) {
-        material.layers.push_back({{layer.weight[0], layer.weight[1], layer.weight[2]}, layer.variance});
-    }
-    if (from.layerCount == 0) {
-        material.meanFreePath = {from.meanFreePath[0], from.meanFreePath[1], from.meanFreePath[2]};
-    }
-    material.strength = from.strength;
-    material.translucency = from.translucency;
-    material.scale = from.scale == 0 ? 1 : from.scale;
-    if (const std::string fault = findFault(material); !fault.empty()) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreMaterial of material ", id, ": ", fault);
-    }
-    return material;
-}
-
-MaterialParameters parametersOf(const NacreMaterial& from, const Profile& profile) {
-    MaterialParameters parameters{};
-    parameters.radius = static_cast<float>(profile.quantileRadius(radiusShare));
-    parameters.strength = from.strength;
-    parameters.translucency = from.translucency;
-    parameters.thickness = from.thickness;
-    parameters.exchangeGroups = from.exchangeGroups;
-    parameters.preAndPost = from.albedoUse == NACRE_ALBEDO_PRE_AND_POST;
-    return parameters;
-}
-
-} // namespace
 
 MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
                              const std::array<bool, techniqueCount>& enabled)
@@ -121,15 +71,13 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
         return part;
     };
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        const Material material = convert(firstId + static_cast<std::uint32_t>(i), materials[i]);
-        const std::unique_ptr<Profile> profile = makeProfile(material);
+        const CheckedMaterial checked = checkMaterial(materials[i], firstId + static_cast<std::uint32_t>(i));
         for (std::size_t technique = 0; technique < techniqueCount; ++technique) {
             if (const std::span<std::byte> table = take(sections_[technique]); !table.empty()) {
-                techniques[technique]->buildTable(material, *profile, table);
+                techniques[technique]->buildTable(checked.material, *checked.profile, table);
             }
         }
-        const MaterialParameters parameters = parametersOf(materials[i], *profile);
-        std::memcpy(take(sections_.back()).data(), &parameters, sizeof(parameters));
+        std::memcpy(take(sections_.back()).data(), &checked.parameters, sizeof(checked.parameters));
     }
     const std::byte* block = blocks.data();
     for (std::uint32_t id = firstId; id < firstId + materials.size(); ++id) {

@@ -48,6 +48,7 @@ extern const std::array<IntermediateInfo, intermediateCount> intermediates;
 /// One compute dispatch.
 struct Pass {
     const char* name; ///< debug label and timestamp name
+    const char* file; ///< what nacre_shader calls it
     std::span<const std::uint32_t> spirv;
     IntermediateSet reads = 0;
     IntermediateSet writes = 0;

@@ -1,48 +1,13 @@
 // Set layouts, pipelines and intermediates, all of which follow from the pass table.
+#include "bindings.hpp"
 #include "context.hpp"
 
 namespace nacre::effect {
 namespace {
 
-struct Binding {
-    std::uint32_t binding;
-    VkDescriptorType type;
-    std::uint32_t count = 1;
-};
-
-constexpr Binding commonBindings[] = {
-    {bindingParameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, {bindingMaterials, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-    {bindingTables, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},     {bindingDepth, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-    {bindingMaterialId, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},  {bindingNormal, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-    {bindingStrength, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-};
-constexpr Binding scatterBindings[] = {
-    {bindingIrradiance, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-    {bindingAlbedo, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-    {bindingScattered, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-};
-constexpr Binding transmitBindings[] = {
-    {bindingThickness, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
-    {bindingLights, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-    {bindingShadowMaps, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, maxShadowMaps},
-    {bindingTransmitted, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-    {bindingThicknessOut, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
-};
-
-VkDescriptorType descriptorType(const IntermediateInfo& info) {
-    return info.format == VK_FORMAT_UNDEFINED ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-}
-
-void createLayout(Context& context, Programs& programs, std::span<const Binding> own) {
-    std::vector<Binding> bindings(std::begin(commonBindings), std::end(commonBindings));
-    bindings.insert(bindings.end(), own.begin(), own.end());
-    for (std::uint32_t i = 0; i < intermediateCount; ++i) {
-        if (programs.intermediates >> i & 1u) {
-            bindings.push_back({bindingIntermediates + i, descriptorType(intermediates[i])});
-        }
-    }
+void createLayout(Context& context, Programs& programs, CallKind kind) {
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
-    for (const Binding& binding : bindings) {
+    for (const NacreBinding& binding : bindingsOf(kind, programs.intermediates, context.maxExtent)) {
         layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     const Device& device = context.device;
@@ -96,8 +61,8 @@ constexpr VkSpecializationMapEntry separateEntry{0, 0, sizeof(separateMaterials)
 constexpr VkSpecializationInfo separateConstants{1, &separateEntry, sizeof(separateMaterials), &separateMaterials};
 
 void createPrograms(Context& context, VkPipelineCache cache) {
-    createLayout(context, context.scatter, scatterBindings);
-    createLayout(context, context.transmit, transmitBindings);
+    createLayout(context, context.scatter, CallKind::Scatter);
+    createLayout(context, context.transmit, CallKind::Transmit);
     for (std::size_t i = 0; i < techniqueCount; ++i) {
         if (!context.enabled[i]) {
             continue;

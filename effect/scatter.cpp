@@ -1,9 +1,8 @@
 // nacreCmdScatter: checks the arguments, fills descriptors and parameters, records the technique's passes.
+#include "parameters.hpp"
 #include "record.hpp"
 #include "validation.hpp"
-#include "view.hpp"
 
-#include <cmath>
 #include <cstring>
 
 namespace nacre::effect {
@@ -23,27 +22,33 @@ std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique techniq
 
 namespace {
 
-/// A step of one pixel is rayX·z + originX, and proportional to clip w.
-float pixelWidth(const ViewParameters& view) {
-    const bool perspective = view.clipW.x != 0;
-    const vec2 x = perspective ? view.rayX : view.originX;
-    const vec2 y = perspective ? view.rayY : view.originY;
-    return std::sqrt(std::abs(x.x * y.y - x.y * y.x)) / std::abs(perspective ? view.clipW.x : view.clipW.y);
+constexpr struct {
+    NacreImageSlot slot;
+    NacreImage NacreScatterInfo::*image;
+    const char* field;
+} images[] = {
+    {NACRE_IMAGE_IRRADIANCE, &NacreScatterInfo::irradiance, "NacreScatterInfo::irradiance"},
+    {NACRE_IMAGE_DEPTH, &NacreScatterInfo::depth, "NacreScatterInfo::depth"},
+    {NACRE_IMAGE_MATERIAL_ID, &NacreScatterInfo::materialId, "NacreScatterInfo::materialId"},
+    {NACRE_IMAGE_NORMAL, &NacreScatterInfo::normal, "NacreScatterInfo::normal"},
+    {NACRE_IMAGE_STRENGTH, &NacreScatterInfo::strength, "NacreScatterInfo::strength"},
+    {NACRE_IMAGE_ALBEDO, &NacreScatterInfo::albedo, "NacreScatterInfo::albedo"},
+    {NACRE_IMAGE_SCATTERED, &NacreScatterInfo::scattered, "NacreScatterInfo::scattered"},
+};
+
+/// Checks all images; returns those that are given.
+ImageSet checkImages(const NacreScatterInfo& info, const VkRect2D& area) {
+    ImageSet given = 0;
+    for (const auto& [slot, image, field] : images) {
+        given |= checkImage(info.*image, slot, area, field) ? 1u << slot : 0u;
+    }
+    if (info.scattered.view == info.irradiance.view) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::scattered.view is the irradiance's, must be another");
+    }
+    return given;
 }
 
-void setTechnique(ScatterParameters& parameters, const Context& context, const NacreScatterInfo& info) {
-    constexpr std::uint32_t defaultBudget = 64;
-    constexpr std::uint32_t largestBudget = 256;
-    if (info.burleySampleBudget > largestBudget) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::burleySampleBudget is ", info.burleySampleBudget,
-             ", must be in [1, ", largestBudget, "]");
-    }
-    parameters.burleySampleBudget = info.burleySampleBudget == 0 ? defaultBudget : info.burleySampleBudget;
-    parameters.burleyRotation = info.burleyRotation;
-    constexpr float defaultThesisStrength = 0.1f;
-    checkRange(info.thesisStrength, 0, 1e6f, "NacreScatterInfo::thesisStrength");
-    parameters.thesisStrength = info.thesisStrength == 0 ? defaultThesisStrength : info.thesisStrength;
-    parameters.thesisRadius = thesisRadius(info.thesisRadius, "NacreScatterInfo::thesisRadius");
+void checkBakedKernel(const Context& context, const NacreScatterInfo& info) {
     if (info.technique != NACRE_TECHNIQUE_THESIS || !info.thesisBakedKernel) {
         return;
     }
@@ -61,30 +66,11 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     constexpr const char* name = "NacreScatterInfo";
     const std::size_t technique = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
     const VkRect2D area = renderArea(info.view, info.irradiance.extent, context.maxExtent, name);
-    checkImage(info.irradiance, NACRE_IMAGE_IRRADIANCE, area, "NacreScatterInfo::irradiance");
-    checkImage(info.depth, NACRE_IMAGE_DEPTH, area, "NacreScatterInfo::depth");
-    checkImage(info.materialId, NACRE_IMAGE_MATERIAL_ID, area, "NacreScatterInfo::materialId");
-    checkImage(info.scattered, NACRE_IMAGE_SCATTERED, area, "NacreScatterInfo::scattered");
-    if (info.scattered.view == info.irradiance.view) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::scattered.view is the irradiance's, must be another");
-    }
-    ScatterParameters parameters{};
-    ViewParameters& view = parameters.view;
-    const bool hasNormal = checkImage(info.normal, NACRE_IMAGE_NORMAL, area, "NacreScatterInfo::normal");
-    view.flags |= hasNormal ? flagNormal : 0u;
-    view.flags |=
-        checkImage(info.strength, NACRE_IMAGE_STRENGTH, area, "NacreScatterInfo::strength") ? flagStrength : 0u;
-    view.flags |= checkImage(info.albedo, NACRE_IMAGE_ALBEDO, area, "NacreScatterInfo::albedo") ? flagAlbedo : 0u;
-    checkFinite(std::span(&info.normalScale, 1), "NacreScatterInfo::normalScale");
-    checkFinite(std::span(&info.normalBias, 1), "NacreScatterInfo::normalBias");
-    setView(view, info.view, area, hasNormal, name);
-    view.normalScale = info.normalScale == 0 ? 1.0f : info.normalScale;
-    view.normalBias = info.normalBias;
-    view.flags |= context.materials->haveSeparate(info.frame) ? flagSeparateMaterials : 0u;
-    parameters.pixelWidth = pixelWidth(view);
-    setTechnique(parameters, context, info);
-    setBankLevels(parameters, area.extent);
+    const ImageSet given = checkImages(info, area);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
+    const bool separate = context.materials->haveSeparate(info.frame);
+    const ScatterParameters parameters = scatterParameters(info, given, area, separate);
+    checkBakedKernel(context, info);
 
     // From here on nothing fails.
     std::memcpy(record.mappedParameters, &parameters, sizeof(parameters));
@@ -103,8 +89,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
-                  context.materials->slotCount(info.frame), (view.flags & flagSeparateMaterials) != 0,
-                  info.thesisBakedKernel != VK_FALSE});
+                  context.materials->slotCount(info.frame), separate, info.thesisBakedKernel != VK_FALSE});
 }
 
 } // namespace

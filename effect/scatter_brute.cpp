@@ -35,10 +35,12 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
 
 constexpr Pass passes[] = {
     {.name = "nacre brute pixels",
+     .file = "scatter_brute_pixels",
      .spirv = scatter_brute_pixels_spv,
      .writes = bit(Intermediate::Pixels),
      .grid = tiles<8, 8>},
     {.name = "nacre brute gather",
+     .file = "scatter_brute_gather",
      .spirv = scatter_brute_gather_spv,
      .reads = bit(Intermediate::Pixels),
      .grid = tiles<8, 8>},

@@ -41,7 +41,8 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
     std::memcpy(bytes.data(), &table, sizeof(table));
 }
 
-constexpr Pass passes[] = {{.name = "nacre burley", .spirv = scatter_burley_spv, .grid = tiles<8, 8>}};
+constexpr Pass passes[] = {
+    {.name = "nacre burley", .file = "scatter_burley", .spirv = scatter_burley_spv, .grid = tiles<8, 8>}};
 
 } // namespace
 

@@ -24,10 +24,12 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> ta
 
 constexpr Pass passes[] = {
     {.name = "nacre separable rows",
+     .file = "scatter_separable_rows",
      .spirv = scatter_separable_rows_spv,
      .writes = bit(Intermediate::Rows),
      .grid = tiles<8, 8>},
     {.name = "nacre separable columns",
+     .file = "scatter_separable_columns",
      .spirv = scatter_separable_columns_spv,
      .reads = bit(Intermediate::Rows),
      .grid = tiles<8, 8>},

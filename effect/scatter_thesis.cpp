@@ -1,6 +1,7 @@
 // Technique `thesis`: a pass pair per material with a slice kernel, as in Andersen's appendix B. The kernel comes from
 // the material's table, or is compiled into the pair (nacreBakeThesisKernel).
 #include "context.hpp"
+#include "parameters.hpp"
 #include "validation.hpp"
 
 #include "nacre/kernel.hpp"
@@ -41,14 +42,19 @@ VkExtent3D columnGroups(VkExtent2D area) {
     return tiles<1, thesisGroupSize>(area);
 }
 
-constexpr Pass copyPass[] = {{.name = "nacre thesis copy", .spirv = scatter_thesis_copy_spv, .grid = tiles<8, 8>}};
+constexpr Pass copyPass[] = {{.name = "nacre thesis copy",
+                              .file = "scatter_thesis_copy",
+                              .spirv = scatter_thesis_copy_spv,
+                              .grid = tiles<8, 8>}};
 
 constexpr Pass materialPasses[] = {
     {.name = "nacre thesis rows",
+     .file = "scatter_thesis_rows",
      .spirv = scatter_thesis_rows_spv,
      .writes = bit(Intermediate::Rows),
      .grid = rowGroups},
     {.name = "nacre thesis columns",
+     .file = "scatter_thesis_columns",
      .spirv = scatter_thesis_columns_spv,
      .reads = bit(Intermediate::Rows),
      .grid = columnGroups},
@@ -91,14 +97,6 @@ void bake(Context& context, std::uint32_t materialId, std::uint32_t radius) {
 }
 
 } // namespace
-
-std::uint32_t thesisRadius(std::uint32_t radius, const char* field) {
-    constexpr std::uint32_t defaultRadius = 5; // the thesis's experiment 1
-    if (radius > thesisMaxRadius) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", radius, ", must be in [1, ", thesisMaxRadius, "]");
-    }
-    return radius == 0 ? defaultRadius : radius;
-}
 
 const Technique thesisTechnique{"thesis",   copyPass,       thesisTaps * sizeof(vec4),
                                 buildTable, materialPasses, "nacre thesis materials"};

@@ -128,6 +128,15 @@ VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExte
     return area;
 }
 
+void checkCovers(VkExtent2D extent, const VkRect2D& area, const FieldName& field) {
+    const std::uint64_t right = std::uint64_t(area.offset.x) + area.extent.width;
+    const std::uint64_t bottom = std::uint64_t(area.offset.y) + area.extent.height;
+    if (extent.width < right || extent.height < bottom) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".extent is ", extent.width, "x", extent.height,
+             ", the render area reaches to ", right, "x", bottom);
+    }
+}
+
 bool checkImage(const NacreImage& image, NacreImageSlot which, const VkRect2D& area, const FieldName& field) {
     const NacreImageRequirements requirements = imageRequirements(which);
     if (image.view == VK_NULL_HANDLE) {
@@ -137,12 +146,7 @@ bool checkImage(const NacreImage& image, NacreImageSlot which, const VkRect2D& a
         return false;
     }
     checkFormatAndUsage(image, requirements, field);
-    const std::uint64_t right = std::uint64_t(area.offset.x) + area.extent.width;
-    const std::uint64_t bottom = std::uint64_t(area.offset.y) + area.extent.height;
-    if (image.extent.width < right || image.extent.height < bottom) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".extent is ", image.extent.width, "x", image.extent.height,
-             ", the render area reaches to ", right, "x", bottom);
-    }
+    checkCovers(image.extent, area, field);
     return true;
 }
 

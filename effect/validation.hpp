@@ -26,6 +26,8 @@ void checkFinite(std::span<const float> values, const FieldName& field);
 /// than maxExtent or reaches out of the image.
 VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const FieldName& info);
 
+/// Throws when an image of this extent does not cover the area.
+void checkCovers(VkExtent2D extent, const VkRect2D& area, const FieldName& field);
 /// Throws when an image (required unless its slot is optional) lacks what its slot needs or does not cover the area.
 /// `field` is the struct and member, e.g. "NacreScatterInfo::depth". Returns whether it is given.
 bool checkImage(const NacreImage& image, NacreImageSlot slot, const VkRect2D& area, const FieldName& field);

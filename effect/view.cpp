@@ -82,6 +82,12 @@ void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, 
 
 } // namespace
 
+double mmPerUnit(const NacreView& view, const FieldName& info) {
+    const float metersPerUnit = view.metersPerUnit == 0 ? 1.0f : view.metersPerUnit;
+    checkRange(metersPerUnit, 1e-6f, 1e6f, info + "::view.metersPerUnit");
+    return 1000.0 * metersPerUnit;
+}
+
 void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& area, bool worldMatrix,
              const FieldName& info) {
     const FieldName clipField = info + "::view.clipFromView";
@@ -89,9 +95,7 @@ void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& 
     if (view.depthEncoding != NACRE_DEPTH_LINEAR && view.depthEncoding != NACRE_DEPTH_HARDWARE) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::view.depthEncoding is ", static_cast<int>(view.depthEncoding));
     }
-    const float metersPerUnit = view.metersPerUnit == 0 ? 1.0f : view.metersPerUnit;
-    checkRange(metersPerUnit, 1e-6f, 1e6f, info + "::view.metersPerUnit");
-    const double mmPerUnit = 1000.0 * metersPerUnit;
+    const double unit = mmPerUnit(view, info);
 
     const Matrix clip{view.clipFromView};
     if (clip(3, 0) != 0 || clip(3, 1) != 0) {
@@ -102,15 +106,15 @@ void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& 
         fail(NACRE_ERROR_INVALID_ARGUMENT, clipField, "[11] is ", clip(3, 2), " and [15] is ", clip(3, 3),
              ": clip w must be positive in front of the camera, which looks along -Z");
     }
-    setRays(parameters, clip, area, mmPerUnit, clipField);
+    setRays(parameters, clip, area, unit, clipField);
     if (worldMatrix) {
         checkFinite(view.viewFromWorld, info + "::view.viewFromWorld");
-        setWorld(parameters, Matrix{view.viewFromWorld}, mmPerUnit, info + "::view.viewFromWorld");
+        setWorld(parameters, Matrix{view.viewFromWorld}, unit, info + "::view.viewFromWorld");
     }
     parameters.areaOffset = {area.offset.x, area.offset.y};
     parameters.areaExtent = {static_cast<std::int32_t>(area.extent.width),
                              static_cast<std::int32_t>(area.extent.height)};
-    parameters.mmPerUnit = static_cast<float>(mmPerUnit);
+    parameters.mmPerUnit = static_cast<float>(unit);
     parameters.flags |= view.depthEncoding == NACRE_DEPTH_HARDWARE ? flagHardwareDepth : 0u;
 }
 

@@ -8,6 +8,9 @@
 
 namespace nacre::effect {
 
+/// Millimetres in a scene unit. Throws a Failure naming `info`'s field.
+double mmPerUnit(const NacreView& view, const FieldName& info);
+
 /// Fills the camera's part of `parameters` from a view and its render area. Throws a Failure naming `info`'s field when
 /// a matrix is no camera's. worldMatrix: whether viewFromWorld is used.
 void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& area, bool worldMatrix,

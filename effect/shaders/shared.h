@@ -184,7 +184,7 @@ NACRE_FUNCTION uint thesisKernelStart(uint radius) {
 
 // Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0. And the profile's layers,
 // for thesisTransmittance: weights, and 1/mm² of variance in w.
-NACRE_CONSTANT transmittanceEntries = 127;
+NACRE_CONSTANT transmittanceEntries = 95;
 struct TransmitTable {
     vec4 end; // x: mm; y: number of layers, 0 = Burley's profile
     vec4 transmittance[transmittanceEntries];

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <new>
 
 namespace {
@@ -134,28 +134,59 @@ TEST_F(RecordingTest, AllocatesMakesSubmitsAndWaitsForNothing) {
     }
 }
 
+/// [us] CPU time of this thread.
+double threadTime() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
+}
+
+/// [us] CPU time that recording a frame takes, median of many. executed: every frame runs before the next is recorded,
+/// which leaves the caches to the passes (a software device has them on these cores).
+double recordingTime(Gpu& gpu, NacreContext context, const Frame& frame, bool executed,
+                     const std::function<void(NacreContext, VkCommandBuffer, const Frame&)>& record) {
+    std::vector<double> times;
+    for (int i = 0; i < 200; ++i) {
+        const VkCommandBuffer commandBuffer = gpu.begin();
+        const double start = threadTime();
+        record(context, commandBuffer, frame);
+        times.push_back(threadTime() - start);
+        if (executed) {
+            gpu.submit(commandBuffer);
+        } else {
+            EXPECT_EQ(vkEndCommandBuffer(commandBuffer), VK_SUCCESS);
+            vkFreeCommandBuffers(gpu.device, gpu.commandPool, 1, &commandBuffer);
+        }
+    }
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+}
+
 TEST_F(RecordingTest, TakesMicroseconds) {
     Gpu owner(false);
+    Frame frame(owner);
+    const Material materials[] = {skin(), marble(), burley()};
     NacreContextInfo own = owner.contextInfo({64, 64});
     own.techniques = 1u << NACRE_TECHNIQUE_DEFAULT;
     Effect effect(owner, own);
-    const Material materials[] = {skin(), marble(), burley()};
     effect.setMaterials(materials);
-    Frame frame(owner);
-    std::vector<double> times;
-    for (int i = 0; i < 200; ++i) {
-        owner.run([&](VkCommandBuffer commandBuffer) {
-            const auto start = std::chrono::steady_clock::now();
-            record(effect.context, commandBuffer, frame);
-            times.push_back(
-                std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
-        });
-    }
-    std::sort(times.begin(), times.end());
-    std::printf("scatter and transmit: median %.1f us, fastest %.1f us\n", times[times.size() / 2], times.front());
-    RecordProperty("medianMicroseconds", std::to_string(times[times.size() / 2]));
-    // The figure is to be below 20 us; a busy machine may take this much more.
-    EXPECT_LT(times.front(), 200);
+    const double whole = recordingTime(owner, effect.context, frame, false, record);
+    const double cold = recordingTime(owner, effect.context, frame, true, record);
+    // The library's own part: its Vulkan calls end where they are counted.
+    own.getInstanceProcAddr = countingGetInstanceProcAddr;
+    Effect alone(owner, own);
+    alone.setMaterials(materials);
+    callCounts().dry = true;
+    const double library = recordingTime(owner, alone.context, frame, false, record);
+    callCounts().dry = false;
+    std::printf("scatter and transmit: %.1f us of CPU time, %.1f us of it the library's; %.1f us after other work\n",
+                whole, library, cold);
+    RecordProperty("microseconds", std::to_string(whole));
+    RecordProperty("microsecondsOfTheLibrary", std::to_string(library));
+    RecordProperty("microsecondsAfterOtherWork", std::to_string(cold));
+    EXPECT_LT(whole, 20);
+    // Measured 4 to 14; what runs beside the test takes part in this one.
+    EXPECT_LT(cold, 40);
 }
 
 } // namespace

@@ -148,6 +148,16 @@ TEST_F(ArgumentsTest, Transmit) {
         NacreResult result;
         const char* text;
     };
+    ScatterImages images(gpu, input_);
+    NacreImage good = images.info.depth; // of a format that shadow maps have, too
+    const auto changed = [&good](auto change) {
+        NacreImage image = good;
+        change(image);
+        return image;
+    };
+    const NacreImage noView = changed([](NacreImage& image) { image.view = VK_NULL_HANDLE; });
+    const NacreImage badFormat = changed([](NacreImage& image) { image.format = VK_FORMAT_R16G16B16A16_SFLOAT; });
+    const NacreImage noExtent = changed([](NacreImage& image) { image.extent = {}; });
     const Case cases[] = {
         {[](auto& i, auto&) { i.normal.view = VK_NULL_HANDLE; }, NACRE_ERROR_INVALID_ARGUMENT,
          "NacreTransmitInfo::normal.view is null"},
@@ -169,9 +179,45 @@ TEST_F(ArgumentsTest, Transmit) {
          "NacreTransmitInfo::lights[0].irradiance is -2"},
         {[](auto&, auto& l) { l.shadowMap = 0; }, NACRE_ERROR_INVALID_ARGUMENT,
          "NacreTransmitInfo::lights[0].shadowMap is 0, NacreTransmitInfo::shadowMapCount is 0"},
+        {[](auto& i, auto&) { i.depth.view = VK_NULL_HANDLE; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::depth.view is null"},
+        {[](auto& i, auto&) { i.materialId.view = VK_NULL_HANDLE; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::materialId.view is null"},
+        {[](auto& i, auto&) { i.transmitted.view = VK_NULL_HANDLE; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::transmitted.view is null"},
+        {[](auto& i, auto&) { i.transmitted.usage = VK_IMAGE_USAGE_SAMPLED_BIT; }, NACRE_ERROR_UNSUPPORTED_FORMAT,
+         "NacreTransmitInfo::transmitted.usage is 0x4, lacks 0x8"},
+        {[](auto& i, auto&) { i.thickness = i.depth, i.thickness.format = VK_FORMAT_R8_UNORM; },
+         NACRE_ERROR_UNSUPPORTED_FORMAT, "NacreTransmitInfo::thickness.format is VkFormat 9"},
+        {[](auto& i, auto&) {
+             i.depth.extent = {0, 16};
+         },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::view.renderArea.extent is 0x16"},
+        {[](auto& i, auto&) { i.view.viewFromWorld[5] = 3; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::view.viewFromWorld is not a rotation"},
+        {[](auto& i, auto&) { i.shadowMapCount = 1; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::shadowMaps is null"},
+        {[&](auto& i, auto&) { i.shadowMaps = &noView, i.shadowMapCount = 1; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::shadowMaps[0].view is null"},
+        {[&](auto& i, auto&) { i.shadowMaps = &badFormat, i.shadowMapCount = 1; }, NACRE_ERROR_UNSUPPORTED_FORMAT,
+         "NacreTransmitInfo::shadowMaps[0].format is VkFormat 97"},
+        {[&](auto& i, auto&) { i.shadowMaps = &noExtent, i.shadowMapCount = 1; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::shadowMaps[0].extent is 0x0"},
+        {[&](auto& i, auto& l) { i.shadowMaps = &good, i.shadowMapCount = 1, l.shadowMap = 0, l.shadowRange = 0; },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].shadowRange is 0"},
+        {[&](auto& i, auto& l) {
+             i.shadowMaps = &good, i.shadowMapCount = 1, l.shadowMap = 0, l.shadowRange = 1;
+             l.shadowClipFromWorld[3] = nan;
+         },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].shadowClipFromWorld[3] is nan"},
+        {[](auto&, auto& l) { l.range = nan; }, NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].range"},
+        {[](auto&, auto& l) { l.kind = NACRE_LIGHT_SPOT, l.outerConeAngle = 2; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::lights[0].outerConeAngle is 2"},
+        {[](auto&, auto& l) { l.kind = NACRE_LIGHT_SPOT, l.outerConeAngle = 0.5f, l.innerConeAngle = 0.6f; },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].innerConeAngle is 0.6"},
+        {[](auto& i, auto&) { i.frame = 1; }, NACRE_ERROR_INVALID_ARGUMENT, "which nacreBeginFrame has not begun"},
         {[](auto& i, auto&) { i.frame = 9; }, NACRE_ERROR_LIMIT_EXCEEDED, "NacreTransmitInfo::frame is 9"},
     };
-    ScatterImages images(gpu, input_);
     Effect effect(gpu, info());
     ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
     for (const Case& one : cases) {

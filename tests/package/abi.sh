@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# abi.sh HEADER LIBRARY: a shared library's dynamic symbols are the header's NACRE_API functions, no more and no fewer, and
-# it needs the C and C++ runtimes alone: not Vulkan's loader.
+# abi.sh LIBRARY HEADER...: a shared library's dynamic symbols are the headers' NACRE_API functions, no more and no fewer,
+# and it needs the C and C++ runtimes alone: not Vulkan's loader.
 set -euo pipefail
-header=$1
-library=$2
+library=$1
+shift
 
-declared=$(tr '\n' ' ' < "$header" | grep -oE 'NACRE_API [A-Za-z0-9_ ]+\*? ?nacre[A-Za-z]+\(' | grep -oE 'nacre[A-Za-z]+' | sort)
+declared=$(cat "$@" | tr '\n' ' ' | grep -oE 'NACRE_API [A-Za-z0-9_ ]+\*? ?nacre[A-Za-z]+\(' | grep -oE 'nacre[A-Za-z]+' | sort)
 exported=$(nm --dynamic --defined-only --format=just-symbols "$library" | sort)
 echo "$(wc -w <<< "$declared") functions declared"
 [ -n "$declared" ]

@@ -37,12 +37,19 @@ awk '/^```sh$/ { typing = 1; next } /^```$/ { typing = 0 } typing' nacre/docs/in
 cat commands.sh
 run bash -euxo pipefail commands.sh
 "$compare_pictures" minimal.png nacre/docs/images/minimal.png
+# The library is compiled from its own files, the standard headers and Vulkan's alone.
+foreign=$(clean ninja -C nacre-build -t deps | sed -nE 's|^ +/usr/(local/)?include/||p' |
+    grep -vE '^(vulkan|vk_video|c\+\+|bits|sys|linux|asm|asm-generic|gnu|[a-z0-9_]+-linux-gnu)/|^[^/]+$' || true)
+if [ -n "$foreign" ]; then
+    echo "package.sh: the library includes $foreign" >&2
+    exit 1
+fi
 
 say "the shared library"
 clean cmake -S nacre -B nacre-build -DBUILD_SHARED_LIBS=ON > log.txt
 clean cmake --build nacre-build > log.txt || { cat log.txt; exit 1; }
 clean cmake --install nacre-build --prefix "$work/shared" > log.txt
-nacre/tests/package/abi.sh nacre/include/nacre/nacre.h "$work/shared/lib/libnacre.so"
+nacre/tests/package/abi.sh "$work/shared/lib/libnacre.so" "$work"/shared/include/nacre/*.h
 mv nacre-install static # a prefix may be moved
 rm -r nacre-build
 
@@ -52,14 +59,25 @@ for kind in static shared; do
     clean cmake --build "find-$kind" > log.txt || { cat log.txt; exit 1; }
     run "find-$kind/consumer"
     run "find-$kind/core_consumer"
+    run "find-$kind/parts_consumer"
 
     say "pkg-config, $kind"
-    flags=$(clean PKG_CONFIG_PATH="$work/$kind/lib/pkgconfig" pkg-config --cflags --libs nacre)
+    ask() { clean PKG_CONFIG_PATH="$work/$kind/lib/pkgconfig" pkg-config "$@" nacre; }
+    flags=$(ask --cflags --libs)
     echo "$flags"
     # shellcheck disable=SC2086
     clean cc -std=c99 -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -Werror "$consumer/consumer.c" \
         -o "pkg-config-$kind" $flags -lvulkan
     run env LD_LIBRARY_PATH="$work/$kind/lib" "./pkg-config-$kind"
+    # shellcheck disable=SC2086
+    clean cc -std=c99 -Wall -Wextra -Wpedantic -Werror "-DSPIRV_DIRECTORY=\"$(ask --variable=spirv)\"" \
+        "$consumer/parts.c" -o "pkg-config-parts-$kind" $flags # without Vulkan's loader
+    run env LD_LIBRARY_PATH="$work/$kind/lib" "./pkg-config-parts-$kind"
+    # The GLSL is whole: every pass compiles where it is installed.
+    shaders=$(ask --variable=shaders)
+    for pass in "$shaders"/*.comp; do
+        clean glslc --target-env=vulkan1.2 -I "$shaders" "$pass" -o pass.spv
+    done
 done
 
 for kind in static shared; do
@@ -70,4 +88,5 @@ for kind in static shared; do
     clean cmake --build subdirectory > log.txt || { cat log.txt; exit 1; }
     run subdirectory/consumer
     run subdirectory/core_consumer
+    run subdirectory/parts_consumer
 done

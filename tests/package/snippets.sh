@@ -1,17 +1,22 @@
 #!/usr/bin/env bash
-# snippets.sh DOCUMENT DIRECTORY [--write]: the code blocks of a document that follow a line "<!-- snippet: name -->" are
-# the lines between "[snippet: name]" and "[end]" in a file of the directory. Fails where they differ, where a block of C++,
+# snippets.sh [--write] DOCUMENT PATH...: the code blocks of a document that follow a line "<!-- snippet: name -->" are the
+# lines between "[snippet: name]" and "[end]" in a file at one of the paths. Fails where they differ, where a block of C++,
 # CMake or GLSL has no name, and where a snippet is not quoted. --write puts the lines into the document.
 set -euo pipefail
+write=0
+if [ "$1" = --write ]; then
+    write=1
+    shift
+fi
 document=$1
-directory=$2
+shift
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/snippets"
 
 # Every snippet into a file of its name, without the indentation of its first line.
-find "$directory" -type f -exec awk -v to="$work/snippets/" '
+find "$@" -type f -exec awk -v to="$work/snippets/" '
     /\[end\]/ { close(to name); name = "" }
     name != "" {
         if (first) { match($0, /^ */); indent = RLENGTH; first = 0 }
@@ -32,10 +37,10 @@ awk -v from="$work/snippets/" -v quoted="$work/quoted" -v document="$document" '
     !skipping { print }' "$document" > "$work/document"
 
 if ! diff <(ls "$work/snippets") <(sort "$work/quoted"); then
-    echo "snippets.sh: the snippets of $directory (<) are not those of $document (>)" >&2
+    echo "snippets.sh: the snippets of $* (<) are not those of $document (>)" >&2
     exit 1
 fi
-if [ "${3:-}" = --write ]; then
+if [ $write -eq 1 ]; then
     cp "$work/document" "$document"
 elif ! diff "$document" "$work/document"; then
     echo "snippets.sh: $document (<) is not what the sources have (>); --write brings it up to date" >&2

@@ -45,6 +45,8 @@ Float4 fromB10G11R11(std::uint32_t bits) {
     return {channel(bits & 0x7ff, 6), channel(bits >> 11 & 0x7ff, 6), channel(bits >> 22, 5), 1};
 }
 
+} // namespace
+
 void uploadLight(Gpu& gpu, GpuImage& image, const std::vector<Float4>& light) {
     switch (image.format) {
     case VK_FORMAT_R16G16B16A16_SFLOAT:
@@ -66,12 +68,23 @@ std::vector<Float4> downloadLight(Gpu& gpu, const GpuImage& image) {
     }
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         return converted<Float4>(gpu.download<std::uint32_t>(image), fromB10G11R11);
+    case VK_FORMAT_R32_SFLOAT:
+        return converted<Float4>(gpu.download<float>(image), [](float value) { return Float4{value}; });
+    case VK_FORMAT_R16_SFLOAT:
+        return converted<Float4>(gpu.download<std::uint16_t>(image),
+                                 [](std::uint16_t half) { return Float4{fromHalf(half)}; });
     default:
         return gpu.download<Float4>(image);
     }
 }
 
-} // namespace
+void uploadIds(Gpu& gpu, GpuImage& image, const std::vector<std::uint16_t>& ids) {
+    if (image.format == VK_FORMAT_R8_UINT) {
+        gpu.upload(image, converted<std::uint8_t>(ids, [](std::uint16_t id) { return id; }));
+    } else {
+        gpu.upload(image, ids);
+    }
+}
 
 Projection Projection::perspective(double width, double height, double focalLength, double centerX, double centerY) {
     Projection projection;
@@ -135,13 +148,7 @@ ScatterImages::ScatterImages(Gpu& gpu, const ScatterInput& input, const ScatterF
     };
     add(info.irradiance, formats.irradiance, [&](GpuImage& image) { uploadLight(gpu, image, input.irradiance); });
     add(info.depth, formats.depth, [&](GpuImage& image) { gpu.upload(image, input.depth); });
-    add(info.materialId, formats.materialId, [&](GpuImage& image) {
-        if (formats.materialId == VK_FORMAT_R8_UINT) {
-            gpu.upload(image, converted<std::uint8_t>(input.materialId, [](std::uint16_t id) { return id; }));
-        } else {
-            gpu.upload(image, input.materialId);
-        }
-    });
+    add(info.materialId, formats.materialId, [&](GpuImage& image) { uploadIds(gpu, image, input.materialId); });
     if (!input.normal.empty()) {
         add(info.normal, VK_FORMAT_R32G32B32A32_SFLOAT, [&](GpuImage& image) { gpu.upload(image, input.normal); });
     }
@@ -202,7 +209,8 @@ void Effect::setMaterials(std::span<const Material> materials) {
 
 std::vector<Float4> Effect::scatter(const ScatterInput& input, NacreTechnique technique,
                                     const ScatterFormats& formats) {
-    return scatter(input, [technique](NacreScatterInfo& info) { info.technique = technique; }, formats);
+    return scatter(
+        input, [technique](NacreScatterInfo& info) { info.technique = technique; }, formats);
 }
 
 std::vector<Float4> Effect::scatter(const ScatterInput& input, const std::function<void(NacreScatterInfo&)>& set,

@@ -27,6 +27,12 @@ struct Projection {
 /// A view of the whole image with an identity camera, linear depth and millimetres.
 NacreView makeView(const Projection& projection);
 
+/// Fills an image of one of the irradiance's formats; reads back one of them, or of one channel.
+void uploadLight(Gpu& gpu, GpuImage& image, const std::vector<Float4>& light);
+std::vector<Float4> downloadLight(Gpu& gpu, const GpuImage& image);
+/// The same for ids.
+void uploadIds(Gpu& gpu, GpuImage& image, const std::vector<std::uint16_t>& ids);
+
 /// The images of one scatter call, tightly packed, row 0 at the top. Optional ones are empty.
 struct ScatterInput {
     VkExtent2D extent{};

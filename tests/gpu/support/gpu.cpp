@@ -19,8 +19,17 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 }
 
 VkImageAspectFlags aspectOf(VkFormat format) {
-    return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                           : VK_IMAGE_ASPECT_COLOR_BIT;
+    switch (format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D32_SFLOAT:
+        return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+        return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    default:
+        return VK_IMAGE_ASPECT_COLOR_BIT;
+    }
 }
 
 } // namespace
@@ -71,12 +80,16 @@ GpuImage& GpuImage::operator=(GpuImage&& other) noexcept {
     std::swap(extent, other.extent);
     std::swap(usage, other.usage);
     std::swap(layers, other.layers);
+    std::swap(layerViews, other.layerViews);
     return *this;
 }
 
 GpuImage::~GpuImage() {
     if (gpu) {
         vkDestroyImageView(gpu->device, view, nullptr);
+        for (const VkImageView layer : layerViews) {
+            vkDestroyImageView(gpu->device, layer, nullptr);
+        }
         vkDestroyImage(gpu->device, image, nullptr);
         vkFreeMemory(gpu->device, memory, nullptr);
     }
@@ -206,7 +219,7 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     result.layout = settings.layout;
     result.extent = settings.extent;
     result.layers = settings.layers;
-    const bool isDepth = aspectOf(settings.format) == VK_IMAGE_ASPECT_DEPTH_BIT;
+    const bool isDepth = (aspectOf(settings.format) & VK_IMAGE_ASPECT_DEPTH_BIT) != 0;
     // A depth image's read-only layout asks for more than sampling.
     constexpr VkImageUsageFlags depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     result.usage =
@@ -231,8 +244,15 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     viewInfo.image = result.image;
     viewInfo.viewType = settings.array || settings.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.format = settings.format;
-    viewInfo.subresourceRange = {aspectOf(settings.format), 0, 1, 0, settings.layers};
+    viewInfo.subresourceRange = {isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
+                                 settings.layers};
     check(vkCreateImageView(device, &viewInfo, nullptr, &result.view), "vkCreateImageView");
+    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    viewInfo.subresourceRange.layerCount = 1;
+    for (std::uint32_t layer = 0; settings.layerViews && layer < settings.layers; ++layer) {
+        viewInfo.subresourceRange.baseArrayLayer = layer;
+        check(vkCreateImageView(device, &viewInfo, nullptr, &result.layerViews.emplace_back()), "vkCreateImageView");
+    }
     run([&](VkCommandBuffer commandBuffer) {
         transition(commandBuffer, result, VK_IMAGE_LAYOUT_UNDEFINED, result.layout);
     });

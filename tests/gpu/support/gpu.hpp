@@ -27,6 +27,8 @@ public:
 
     /// What the effect's structs take.
     NacreImage nacre() const { return {view, format, layout, extent, usage}; }
+    /// One layer of it as a 2D image; see ImageSettings::layerViews.
+    NacreImage nacreLayer(std::uint32_t layer) const { return {layerViews.at(layer), format, layout, extent, usage}; }
 
     Gpu* gpu = nullptr;
     VkImage image = VK_NULL_HANDLE;
@@ -37,6 +39,7 @@ public:
     VkExtent2D extent{};
     VkImageUsageFlags usage = 0;
     std::uint32_t layers = 1;
+    std::vector<VkImageView> layerViews;
 };
 
 struct ImageSettings {
@@ -45,7 +48,8 @@ struct ImageSettings {
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT;
     VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
     std::uint32_t layers = 1;
-    bool array = false; ///< a 2D array view even of one layer
+    bool array = false;      ///< a 2D array view even of one layer
+    bool layerViews = false; ///< also a 2D view of every layer
 };
 
 /// Bytes of one texel; throws for formats the tests do not use.
@@ -87,6 +91,8 @@ public:
     /// As run, with a query pool of `count` timestamps; returns the microseconds between them.
     std::vector<double> runTimed(std::uint32_t count, const std::function<void(VkCommandBuffer, VkQueryPool)>& record);
 
+    /// The first of these memory types with these properties; throws where there is none.
+    std::uint32_t memoryType(std::uint32_t bits, VkMemoryPropertyFlags wanted) const;
     /// A context's info with this device filled in.
     NacreContextInfo contextInfo(VkExtent2D maxExtent) const;
 
@@ -101,7 +107,6 @@ public:
 private:
     struct Staging;
     Staging createStaging(VkDeviceSize size);
-    std::uint32_t memoryType(std::uint32_t bits, VkMemoryPropertyFlags properties) const;
     void transition(VkCommandBuffer commandBuffer, const GpuImage& image, VkImageLayout from, VkImageLayout to) const;
 
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
