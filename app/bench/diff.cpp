@@ -1,6 +1,7 @@
 #include "app/bench/diff.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <stdexcept>
@@ -10,7 +11,7 @@ namespace {
 
 // The largest floor that either run states. That of one configuration is too low between runs: there it was measured
 // twice in one process, at one time and on one device.
-double noiseBetween(const Results& before, const Results& after) {
+double largestFloor(const Results& before, const Results& after) {
     double noise = 0;
     for (const Results* results : {&before, &after}) {
         for (const Measurement& measurement : results->measurements) {
@@ -18,6 +19,15 @@ double noiseBetween(const Results& before, const Results& after) {
         }
     }
     return noise;
+}
+
+// A floor is the largest difference of a few pairs; of many more that differ as little, the largest is larger. Of n
+// normal deviations it grows as √(2 ln n) (Cramér 1946, section 28.6).
+double noiseBetween(const Results& before, const Results& after) {
+    const double pairs = static_cast<double>(before.noiseFloors.size() + after.noiseFloors.size());
+    const double compared = 2.0 * static_cast<double>(after.measurements.size()); // frame and effect
+    const double growth = pairs >= 2 && compared > pairs ? std::sqrt(std::log(compared) / std::log(pairs)) : 1;
+    return growth * largestFloor(before, after);
 }
 
 Change compareTime(const Measurement& before, const Measurement& after, const char* quantity,

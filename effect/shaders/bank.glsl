@@ -21,7 +21,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
     uint quadAreas[]; // as quads: packAreas of the four pixels
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
-    BankDispatch dispatches[2]; // of the combination: smooth tiles, edge tiles
+    BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
     uint tileEntries[]; // per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions, two a tile
 };
 

@@ -239,8 +239,23 @@ TEST(Diff, FindsWhatGotSlower) {
     EXPECT_TRUE(comparison.regressed());
     const std::string text = formatComparison(comparison);
     EXPECT_NE(text.find("slower or less accurate: 1\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("effect 550.0 µs, was 500.0 µs: +10.0 % (noise 2.0 %)"), std::string::npos) << text;
+    EXPECT_NE(text.find("effect 550.0 µs, was 500.0 µs: +10.0 % (noise 3.2 %)"), std::string::npos) << text;
     EXPECT_FALSE(compare(after, sample()).regressed()) << "faster is no regression";
+}
+
+TEST(Diff, TakesMoreForNoiseTheMoreItCompares) {
+    // The sample has one floor in each run, of 2 %, and 6 times to compare: √(ln 6 / ln 2) = 1.61 times as much.
+    Results after = sample();
+    after.measurements[1].effect = times(1.031 * after.measurements[1].effect.median);
+    EXPECT_FALSE(compare(sample(), after).regressed());
+    after.measurements[1].effect = times(1.034 * sample().measurements[1].effect.median);
+    EXPECT_TRUE(compare(sample(), after).regressed());
+    // As many floors as times: no more than the floor.
+    Results before = sample();
+    before.noiseFloors.assign(3, before.noiseFloors[0]);
+    after.noiseFloors = before.noiseFloors;
+    after.measurements[1].effect = times(1.021 * sample().measurements[1].effect.median);
+    EXPECT_TRUE(compare(before, after).regressed());
 }
 
 TEST(Diff, KeepsToTheLargerNoiseFloor) {
