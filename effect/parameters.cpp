@@ -114,11 +114,11 @@ LightParameters parametersOf(const NacreLight& light, const NacreTransmitInfo& i
 
 } // namespace
 
-ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area, bool separate) {
+ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area) {
     constexpr const char* name = "NacreScatterInfo";
     ScatterParameters parameters{};
     ViewParameters& view = parameters.view;
-    view.flags = flagsOf(given) | (separate ? flagSeparateMaterials : 0u);
+    view.flags = flagsOf(given);
     setNormals(view, info, name);
     setView(view, info.view, area, (view.flags & flagNormal) != 0, name);
     parameters.pixelWidth = pixelWidth(view);

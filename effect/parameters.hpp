@@ -13,7 +13,7 @@ namespace nacre::effect {
 using ImageSet = std::uint32_t;
 
 /// separate: whether some materials may not exchange light.
-ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area, bool separate);
+ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area);
 /// Normals are always given.
 TransmitParameters transmitParameters(const NacreTransmitInfo& info, ImageSet given, const VkRect2D& area);
 

@@ -150,8 +150,8 @@ NacreResult nacreFillTable(NacreTechnique technique, const NacreMaterial* materi
     });
 }
 
-NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t images, VkBool32 separateMaterials,
-                                       const NacreMessages* messages, size_t size, void* data) {
+NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t images, const NacreMessages* messages,
+                                       size_t size, void* data) {
     return guarded(messages, [&] {
         checkGiven(info, "NacreScatterInfo");
         checkOptional(images, bitOf(NACRE_IMAGE_NORMAL) | bitOf(NACRE_IMAGE_STRENGTH) | bitOf(NACRE_IMAGE_ALBEDO));
@@ -162,7 +162,7 @@ NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t im
         const VkRect2D area = renderArea(info->view, info->irradiance.extent, largestExtent, "NacreScatterInfo");
         checkCovers(info->depth.extent, area, "NacreScatterInfo::depth");
         checkCovers(info->materialId.extent, area, "NacreScatterInfo::materialId");
-        fillBlock(scatterParameters(*info, images, area, separateMaterials != VK_FALSE), size, data);
+        fillBlock(scatterParameters(*info, images, area), size, data);
     });
 }
 

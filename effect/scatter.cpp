@@ -69,7 +69,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     const ImageSet given = checkImages(info, area);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
     const bool separate = context.materials->haveSeparate(info.frame);
-    const ScatterParameters parameters = scatterParameters(info, given, area, separate);
+    const ScatterParameters parameters = scatterParameters(info, given, area);
     checkBakedKernel(context, info);
 
     // From here on nothing fails.

@@ -147,6 +147,13 @@ float falloff(float q) {
     return base * base;
 }
 
+// How much the taps beside the middle of the full-resolution 3x3 weigh, in x and y, on a slope of so many pixel widths a
+// pixel.
+vec2 weightsBeside(vec2 slope) {
+    return 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
+                      falloff(slope.y * slope.y / bankPixelDepthVariance));
+}
+
 // What a tap adds to the denominator: on the surface its weight, on another one the weight it would have had.
 float countedWeight(float kernel, float weight, float depthDifference, float width) {
     return weight + clamp(abs(depthDifference) / width - bankMissingDepth, 0.0, 1.0) * kernel;

@@ -12,23 +12,21 @@ vec4 lightAt(ivec2 pixel) {
 
 // The quad's pixels that share a material and a surface, with the mixture taken at the first of them.
 struct Group {
-    ivec2 region;
+    ivec2 region; // px
     ivec2 quad;   // px
-    ivec2 first;  // the quad's place in shared memory, pixelPlace
+    ivec2 first;  // the quad, counted from the pixel up and left of the region's first
     vec4 depths;
     bvec4 members;
     uint material;
     float depth;
 };
 
-// The block around the quad is one slope, on which all its pixels are to within this many pixel widths.
-const float slopeTolerance = 0.3;
-
 // Depth steps on the slope that the quad's four pixels make.
 vec2 quadSlope(vec4 depths) {
     return 0.5 * vec2(depths.y - depths.x + depths.w - depths.z, depths.z - depths.x + depths.w - depths.y);
 }
 
+// Whether the block of 4x4 px around the quad is one slope.
 bool isSlope(Group group, vec2 slope, float width) {
     bool result = all(group.members);
     [[unroll]] for (int i = 0; i < 16; ++i) {
@@ -36,16 +34,14 @@ bool isSlope(Group group, vec2 slope, float width) {
         int place = pixelPlace(group.first + offset);
         float expected = group.depths.x + dot(slope, vec2(offset));
         result = result && pixelLights[place].y > 0xffffu &&
-                 abs(pixelDepths[place] - expected) <= slopeTolerance * width;
+                 abs(pixelDepths[place] - expected) <= bankSlopeTolerance * width;
     }
     return result;
 }
 
 // The full-resolution 3x3 on a slope: weights are separable, `beside` the middle.
 void addSlopePixels(inout Sum sums[4], vec3 weight, Group group, vec2 slope, float width) {
-    vec2 relative = slope / width;
-    vec2 beside = 0.5 * vec2(falloff(relative.x * relative.x / bankPixelDepthVariance),
-                             falloff(relative.y * relative.y / bankPixelDepthVariance));
+    vec2 beside = weightsBeside(slope / width);
     vec2 middle = 1.0 / (1.0 + 2.0 * beside);
     vec2 side = beside * middle;
     vec4 rows[4][2];
@@ -105,8 +101,7 @@ void addPixels(inout Sum sums[4], Mixture mixture, Group group) {
     } else {
         [[dont_unroll]] for (int i = 0; i < 4; ++i) {
             if (group.members[i]) {
-                add(sums[i], pixelsWeight,
-                    blurPixel(group.first + ivec2(i & 1, i >> 1), group.material));
+                add(sums[i], pixelsWeight, blurPixel(group.first + ivec2(i & 1, i >> 1), group.material));
             }
         }
     }

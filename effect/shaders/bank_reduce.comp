@@ -100,9 +100,7 @@ vec2 blockSlope(RawTexel pixels[4], bvec4 kept, float depth) {
 RawTexel reducePixels(RawTexel pixels[4], out uvec4 quad) {
     bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
     RawTexel texel = mergeTexels(pixels, kept);
-    vec2 slope = blockSlope(pixels, kept, texel.depth);
-    vec2 beside = 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
-                             falloff(slope.y * slope.y / bankPixelDepthVariance));
+    vec2 beside = weightsBeside(blockSlope(pixels, kept, texel.depth));
     quad = uvec4(floatBitsToUint(texel.depth), packHalf2x16(beside), pixels[0].material | pixels[1].material << 16,
                  pixels[2].material | pixels[3].material << 16);
     return texel;

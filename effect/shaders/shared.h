@@ -77,7 +77,6 @@ NACRE_CONSTANT flagThickness = 8u;
 NACRE_CONSTANT flagThicknessOut = 16u;
 NACRE_CONSTANT flagThesisTransmittance = 32u;
 NACRE_CONSTANT flagHardwareDepth = 64u;
-NACRE_CONSTANT flagSeparateMaterials = 128u; // some materials do not exchange light with some others
 
 // A camera. Lengths in mm, pixels are those of the whole image. A pixel's view-space position at view depth z is
 // (ray·z + origin, z) with ray = rayX·pixel.x + rayY·pixel.y + rayBias and origin alike (view.glsl).

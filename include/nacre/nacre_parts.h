@@ -70,7 +70,8 @@ typedef struct NacrePass {
     uint32_t writes;             /**< likewise */
     VkBool32 perMaterial;        /**< run for every material's slot */
     VkBool32 asksMaterials;      /**< has the specialization constant 0, a VkBool32, by default VK_FALSE: VK_TRUE in the
-                                      pipeline for calls with separateMaterials (nacreFillScatterParameters) */
+                                      pipeline for frames where some materials that are set share no exchange group with
+                                      some others; the one without is quicker */
     VkExtent3D groups;           /**< workgroups to dispatch; 0 where indirectBinding is not */
     uint32_t indirectBinding;    /**< the intermediate that holds the VkDispatchIndirectCommand; 0 = none does */
     VkDeviceSize indirectOffset; /**< bytes, where in it */
@@ -97,11 +98,9 @@ NACRE_API NacreResult nacreFillTable(NacreTechnique technique, const NacreMateri
 /** "parameters" of a scatter technique (ScatterParameters). Of info's images only the extents of depth and materialId are
  *  looked at, and irradiance's where view.renderArea is zero; frame, technique and timestamps are not.
  *  thesisBakedKernel must be VK_FALSE.
- *  images: bits 1u << NacreImageSlot of the optional images that are bound.
- *  separateMaterials: VK_FALSE when one exchange group holds all materials that are set, which is quicker. */
+ *  images: bits 1u << NacreImageSlot of the optional images that are bound. */
 NACRE_API NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t images,
-                                                 VkBool32 separateMaterials, const NacreMessages* messages, size_t size,
-                                                 void* data);
+                                                 const NacreMessages* messages, size_t size, void* data);
 /** "parameters" of transmission (TransmitParameters). Of info's images only depth.extent is looked at, where
  *  view.renderArea is zero; lights, frame and timestamps are not. images: as above; the normals are always bound. */
 NACRE_API NacreResult nacreFillTransmitParameters(const NacreTransmitInfo* info, uint32_t images,

@@ -223,8 +223,7 @@ void PartsEngine::scatter(VkCommandBuffer commandBuffer, const NacreScatterInfo&
     // [snippet: parts-parameters]
     const std::uint32_t optional = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
                                    bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
-    check(
-        nacreFillScatterParameters(&info, optional, separate_, &messages, parameters.binding.head, parameters.mapped));
+    check(nacreFillScatterParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
     // [end]
     const VkExtent2D area = info.view.renderArea.extent;
     recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent);
