@@ -22,7 +22,8 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
-    uint tileEntries[]; // per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions, two a tile
+    // Per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions, two a tile.
+    uint tileEntries[];
 };
 
 const int tileSize = 32; // px; level l has tileSize / 2^l texels a side in each tile

@@ -39,9 +39,9 @@ shared uint roughLevels;
 
 // Numerator and denominator of a pixel's result, per channel.
 struct Sum {
-    vec2 light;    // red and green
-    vec2 blue;     // light and mass
-    vec2 mass;     // of red and green
+    vec2 light; // red and green
+    vec2 blue;  // light and mass
+    vec2 mass;  // of red and green
 };
 
 const Sum noSum = Sum(vec2(0.0), vec2(0.0), vec2(0.0));
@@ -194,10 +194,10 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
     return quad;
 }
 
-// The light of a material in the table's bins around a scale, and how far it is towards the second.
+// A material's weights of the kernels at a scale.
 struct Mixture {
-    uvec4 bins[6];
-    float fraction;
+    uvec4 bins[6];  // of the table: the two around the scale, packed
+    float fraction; // [0, 1] towards the second
     float strength;
 };
 
@@ -345,7 +345,7 @@ void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 qua
     }
 }
 
-// Writes the pixels of a quad that share a material. `own` is their light, with which what is not scattered leaves.
+// Writes the pixels of a quad that share a material. `own` is their light, of which what is not scattered leaves.
 void storeGroup(ivec2 quad, bvec4 members, uint material, float strength, vec4 own[4], Sum sums[4]) {
     ivec2 first = quad + view.areaOffset;
     vec4 strengths = vec4(strength);

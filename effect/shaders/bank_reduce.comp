@@ -56,8 +56,8 @@ struct Pixel {
     bool gives;
 };
 
-// Not finite light is no light; not finite depth is no surface, and what lies on it is dropped, so that nothing near is
-// taken for smooth. `place`: in `depths`, which is filled.
+// Not finite light is no light; not finite depth is no surface. Either drops the pixel, so that nothing near is taken for
+// smooth. `place`: in `depths`, which is filled.
 Pixel decodePixel(Fetched fetched, int i, ivec2 first, int place, inout bool receives, inout bool dropped) {
     ivec2 pixel = pixelOf(first, i);
     uint material = materialOfId(fetched.id[i]);
@@ -67,8 +67,9 @@ Pixel decodePixel(Fetched fetched, int i, ivec2 first, int place, inout bool rec
     bool isOnSurface = material != 0u && isValidZ(z);
     depths[place] = isOnSurface ? -z : 0.0;
     receives = receives || isOnSurface;
-    dropped = dropped || (material != 0u && !isOnSurface);
-    return Pixel(min(light, vec3(maxHalf)), material, isOnSurface && isFinite(light));
+    bool gives = isOnSurface && isFinite(light);
+    dropped = dropped || (material != 0u && !gives);
+    return Pixel(min(light, vec3(maxHalf)), material, gives);
 }
 
 RawTexel toTexel(Pixel pixel, int place) {

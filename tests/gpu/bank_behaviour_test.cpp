@@ -166,13 +166,14 @@ TEST_F(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
     input.depth[scene.index(55, 60)] = infinity;
     input.depth[scene.index(56, 60)] = 0;
     input.depth[scene.index(57, 60)] = -5;
+    for (int i = 0; i < 16; ++i) { // whole texels of the pyramid without light
+        input.irradiance[scene.index(120 + i % 4, 60 + i / 4)] = {nan, nan, nan, 1};
+    }
     const std::vector<Float4> result = effect->scatter(input, NACRE_TECHNIQUE_BANK);
     for (int y = 0; y < scene.height; ++y) {
         for (int x = 0; x < scene.width; ++x) {
-            if (std::abs(y - 60) > 0 || x < 50 || x > 57) {
-                for (int channel = 0; channel < 3; ++channel) {
-                    ASSERT_TRUE(std::isfinite(result[scene.index(x, y)][channel])) << x << ", " << y;
-                }
+            for (int channel = 0; channel < 3; ++channel) {
+                ASSERT_TRUE(std::isfinite(result[scene.index(x, y)][channel])) << x << ", " << y;
             }
         }
     }
