@@ -111,7 +111,7 @@ Fetched fetchPixel(ivec2 local) {
 
 void storePixel(ivec2 pixel, Fetched fetched, uint material, float area) {
     bool receives = material != 0u && (!isEdge || isValidZ(fetched.z));
-    bool gives = receives && all(lessThan(abs(fetched.light), vec3(1e38)));
+    bool gives = receives && isFinite(fetched.light);
     vec3 light = min(fetched.light, vec3(maxHalf));
     int place = pixelPlace(pixel);
     uvec2 words = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, 1.0)));
@@ -243,6 +243,43 @@ vec3 quotient(Sum sum) {
     vec3 light = vec3(sum.light, sum.blue.x);
     vec3 mass = vec3(sum.mass, sum.blue.y);
     return light / max(mass, vec3(1e-20));
+}
+
+// A pixel's light in shared memory, at a place counted as for pixelPlace.
+vec4 lightAt(ivec2 pixel) {
+    return unpackLight(pixelLights[pixelPlace(pixel)]);
+}
+
+// The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
+// middle in x and y.
+void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
+    vec2 middle = 1.0 / (1.0 + 2.0 * beside);
+    vec2 side = beside * middle;
+    vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
+    [[unroll]] for (int y = 0; y < 4; ++y) {
+        vec4 row[4];
+        [[unroll]] for (int x = 0; x < 4; ++x) {
+            row[x] = lightAt(first + ivec2(x, y) - 1);
+        }
+        [[unroll]] for (int x = 0; x < 2; ++x) {
+            rows[y][x] = middle.x * row[x + 1] + side.x * row[x] + side.x * row[x + 2];
+        }
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int x = i & 1;
+        int y = i >> 1;
+        add(sums[i], weight, middle.y * rows[y + 1][x] + side.y * rows[y][x] + side.y * rows[y + 2][x]);
+    }
+}
+
+// The identity; returns the light of the quad's pixels.
+vec4[4] addIdentity(inout Sum sums[4], vec3 weight, ivec2 first) {
+    vec4 own[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        own[i] = lightAt(first + ivec2(i & 1, i >> 1));
+        add(sums[i], weight, own[i]);
+    }
+    return own;
 }
 
 // Where a quad lies between four texels of a level.

@@ -6,10 +6,6 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-vec4 lightAt(ivec2 pixel) {
-    return unpackLight(pixelLights[pixelPlace(pixel)]);
-}
-
 // The quad's pixels that share a material and a surface, with the mixture taken at the first of them.
 struct Group {
     ivec2 region; // px
@@ -37,28 +33,6 @@ bool isSlope(Group group, vec2 slope, float width) {
                  abs(pixelDepths[place] - expected) <= bankSlopeTolerance * width;
     }
     return result;
-}
-
-// The full-resolution 3x3 on a slope: weights are separable, `beside` the middle.
-void addSlopePixels(inout Sum sums[4], vec3 weight, Group group, vec2 slope, float width) {
-    vec2 beside = weightsBeside(slope / width);
-    vec2 middle = 1.0 / (1.0 + 2.0 * beside);
-    vec2 side = beside * middle;
-    vec4 rows[4][2];
-    [[unroll]] for (int y = 0; y < 4; ++y) {
-        vec4 row[4];
-        [[unroll]] for (int x = 0; x < 4; ++x) {
-            row[x] = lightAt(group.first + ivec2(x, y) - 1);
-        }
-        [[unroll]] for (int x = 0; x < 2; ++x) {
-            rows[y][x] = middle.x * row[x + 1] + side.x * row[x] + side.x * row[x + 2];
-        }
-    }
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        int x = i & 1;
-        int y = i >> 1;
-        add(sums[i], weight, middle.y * rows[y + 1][x] + side.y * rows[y][x] + side.y * rows[y + 2][x]);
-    }
 }
 
 // The full-resolution 3x3 of a pixel, tap by tap.
@@ -91,22 +65,18 @@ vec4 blurPixel(ivec2 center, uint material) {
     return vec4(light * (mass / max(area, bankLeastWeight)), mass);
 }
 
-void addPixels(inout Sum sums[4], Mixture mixture, Group group) {
-    vec3 identityWeight = kernelWeight(mixture, 0);
-    vec3 pixelsWeight = kernelWeight(mixture, 1);
+// The full-resolution 3x3.
+void addPixels(inout Sum sums[4], vec3 weight, Group group) {
     float width = texelWidth(0, group.depth);
     vec2 slope = quadSlope(group.depths);
     if (!separateMaterials && isSlope(group, slope, width)) {
-        addSlopePixels(sums, pixelsWeight, group, slope, width);
-    } else {
-        [[dont_unroll]] for (int i = 0; i < 4; ++i) {
-            if (group.members[i]) {
-                add(sums[i], pixelsWeight, blurPixel(group.first + ivec2(i & 1, i >> 1), group.material));
-            }
-        }
+        addSlopePixels(sums, weight, group.first, weightsBeside(slope / width));
+        return;
     }
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        add(sums[i], identityWeight, lightAt(group.first + ivec2(i & 1, i >> 1)));
+    [[dont_unroll]] for (int i = 0; i < 4; ++i) {
+        if (group.members[i]) {
+            add(sums[i], weight, blurPixel(group.first + ivec2(i & 1, i >> 1), group.material));
+        }
     }
 }
 
@@ -136,13 +106,10 @@ void addFinestLevel(inout Sum sums[4], vec3 weight, Group group) {
 void combineGroup(Group group) {
     Mixture mixture = findMixture(group.material, group.depth);
     Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-    addPixels(sums, mixture, group);
+    vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), group.first);
+    addPixels(sums, kernelWeight(mixture, 1), group);
     addFinestLevel(sums, kernelWeight(mixture, 2), group);
     addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
-    vec4 own[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        own[i] = lightAt(group.first + ivec2(i & 1, i >> 1));
-    }
     storeGroup(group.quad, group.members, group.material, mixture.strength, own, sums);
 }
 

@@ -6,34 +6,6 @@
 const bool isEdge = false;
 #include "bank_combine.glsl"
 
-// The identity and the full-resolution 3x3. Taps have the depths of the slope the quad stands on, which makes their
-// weights separable: `beside` the middle, in x and y.
-void addPixels(inout Sum sums[4], Mixture mixture, ivec2 texel, vec2 beside, out vec4 own[4]) {
-    vec2 middle = 1.0 / (1.0 + 2.0 * beside);
-    vec2 side = beside * middle;
-    vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
-    [[unroll]] for (int y = 0; y < 4; ++y) {
-        vec4 row[4];
-        [[unroll]] for (int x = 0; x < 4; ++x) {
-            row[x] = unpackLight(pixelLights[pixelPlace(2 * texel + ivec2(x, y))]);
-        }
-        [[unroll]] for (int x = 0; x < 2; ++x) {
-            rows[y][x] = middle.x * row[x + 1] + side.x * row[x] + side.x * row[x + 2];
-            if (y == 1 || y == 2) {
-                own[x + 2 * (y - 1)] = row[x + 1];
-            }
-        }
-    }
-    vec3 identityWeight = kernelWeight(mixture, 0);
-    vec3 pixelsWeight = kernelWeight(mixture, 1);
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        int x = i & 1;
-        int y = i >> 1;
-        add(sums[i], identityWeight, own[i]);
-        add(sums[i], pixelsWeight, middle.y * rows[y + 1][x] + side.y * rows[y][x] + side.y * rows[y + 2][x]);
-    }
-}
-
 // Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
 void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel) {
     vec4 rows[3][2];
@@ -83,8 +55,8 @@ void main() {
         }
         Mixture mixture = findMixture(material, depth);
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-        vec4 own[4];
-        addPixels(sums, mixture, texel, beside, own);
+        vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), 2 * texel + 1);
+        addSlopePixels(sums, kernelWeight(mixture, 1), 2 * texel + 1, beside);
         addFinestLevel(sums, kernelWeight(mixture, 2), texel);
         addCoarseLevels(sums, mixture, region, quad, depth, vec4(0.0), material);
         storeGroup(quad, members, material, mixture.strength, own, sums);
