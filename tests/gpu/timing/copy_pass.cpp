@@ -89,11 +89,16 @@ void CopyPass::record(VkCommandBuffer commandBuffer, VkQueryPool pool, std::uint
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
     vkCmdPipelineBarrier(commandBuffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
                          1, &barrier, 0, nullptr, 0, nullptr);
-    vkCmdWriteTimestamp(commandBuffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, first);
+    const auto timestamp = [&](std::uint32_t query) {
+        if (pool != VK_NULL_HANDLE) {
+            vkCmdWriteTimestamp(commandBuffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, query);
+        }
+    };
+    timestamp(first);
     vkCmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
     vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
     vkCmdDispatch(commandBuffer, (extent_.width + 15) / 16, (extent_.height + 15) / 16, 1);
-    vkCmdWriteTimestamp(commandBuffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, first + 1);
+    timestamp(first + 1);
 }
 
 } // namespace nacre::tests

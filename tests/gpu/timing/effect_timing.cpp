@@ -1,6 +1,6 @@
 // effect_timing: GPU times of the scatter techniques on synthetic scenes, beside a copy pass, as a table and CSV.
 //   effect_timing [--suite scenes|targets|footprint|layers|materials|all] [--size WxH] [--csv FILE] [--rounds N]
-// Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 19 steady repeats.
+// Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 20 steady repeats.
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/gpu/timing/copy_pass.hpp"
 #include "tests/gpu/timing/measure.hpp"

@@ -8,15 +8,37 @@
 namespace nacre::tests {
 namespace {
 
-// The times between the timestamps of `repeats` recordings in one command buffer.
-std::vector<double> runRepeats(Gpu& gpu, const Variant& variant, std::uint32_t repeats) {
-    const auto queries = static_cast<std::uint32_t>(variant.passes.size() + 1);
+// The times of `repeats` recordings in one command buffer, from each one's start to the next one's; no timestamp inside, so
+// that passes which do not depend on each other may overlap, as they do in an engine.
+std::vector<double> runFrames(Gpu& gpu, const Variant& variant, std::uint32_t repeats) {
     variant.begin();
-    return gpu.runTimed(queries * repeats, [&](VkCommandBuffer commandBuffer, VkQueryPool pool) {
+    return gpu.runTimed(repeats + 1, [&](VkCommandBuffer commandBuffer, VkQueryPool pool) {
         for (std::uint32_t i = 0; i < repeats; ++i) {
-            variant.record(commandBuffer, pool, i * queries);
+            vkCmdWriteTimestamp(commandBuffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, i);
+            variant.record(commandBuffer, VK_NULL_HANDLE, 0);
         }
+        vkCmdWriteTimestamp(commandBuffer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, repeats);
     });
+}
+
+// The passes' times, one after the other, of each of `repeats` recordings in one command buffer.
+std::vector<std::vector<double>> runPasses(Gpu& gpu, const Variant& variant, std::uint32_t repeats) {
+    const std::size_t passCount = variant.passes.size();
+    const auto queries = static_cast<std::uint32_t>(passCount + 1);
+    variant.begin();
+    const std::vector<double> steps =
+        gpu.runTimed(queries * repeats, [&](VkCommandBuffer commandBuffer, VkQueryPool pool) {
+            for (std::uint32_t i = 0; i < repeats; ++i) {
+                variant.record(commandBuffer, pool, i * queries);
+            }
+        });
+    std::vector<std::vector<double>> passes(passCount);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (i % queries < passCount) { // else it is the gap to the next recording
+            passes[i % queries].push_back(steps[i]);
+        }
+    }
+    return passes;
 }
 
 struct Samples {
@@ -24,14 +46,15 @@ struct Samples {
     std::vector<std::vector<double>> passes;
 };
 
-void addSteady(Samples& samples, std::span<const double> steps, std::size_t passCount) {
-    // A repeat is its passes and the gap to the next one's first timestamp; the last has no next one.
-    for (std::size_t first = 0; first + passCount < steps.size(); first += passCount + 1) {
-        const auto begin = steps.begin() + static_cast<std::ptrdiff_t>(first);
-        samples.steady.push_back(std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(passCount) + 1, 0.0));
-        for (std::size_t pass = 0; pass < passCount; ++pass) {
-            samples.passes[pass].push_back(steps[first + pass]);
-        }
+template <typename Range> void append(std::vector<double>& to, const Range& values) {
+    to.insert(to.end(), values.begin(), values.end());
+}
+
+void addRound(Gpu& gpu, const Variant& variant, const MeasureSettings& settings, Samples& samples) {
+    append(samples.steady, runFrames(gpu, variant, settings.repeats));
+    const std::vector<std::vector<double>> passes = runPasses(gpu, variant, settings.repeats);
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) {
+        append(samples.passes[pass], passes[pass]);
     }
 }
 
@@ -61,18 +84,17 @@ std::vector<Timing> measure(Gpu& gpu, std::span<const Variant> variants, const M
         samples[i].passes.resize(variants[i].passes.size());
         const auto start = std::chrono::steady_clock::now();
         do {
-            runRepeats(gpu, variants[i], settings.repeats);
+            runFrames(gpu, variants[i], settings.repeats);
         } while (std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() <
                  settings.warmUpMilliseconds);
     }
     for (std::uint32_t round = 0; round < settings.rounds; ++round) {
         for (std::size_t i = 0; i < variants.size(); ++i) {
-            addSteady(samples[i], runRepeats(gpu, variants[i], settings.repeats), variants[i].passes.size());
+            addRound(gpu, variants[i], settings, samples[i]);
         }
         for (std::size_t i = 0; i < variants.size(); ++i) {
             for (std::uint32_t single = 0; single < settings.singles; ++single) {
-                const std::vector<double> steps = runRepeats(gpu, variants[i], 1);
-                samples[i].single.push_back(std::accumulate(steps.begin(), steps.end(), 0.0));
+                append(samples[i].single, runFrames(gpu, variants[i], 1));
             }
         }
     }

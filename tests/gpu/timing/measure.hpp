@@ -5,7 +5,8 @@
 
 namespace nacre::tests {
 
-/// Something to time: `record` writes timestamps first … first + passes.size() around and between its passes.
+/// Something to time: `record` writes timestamps first … first + passes.size() around and between its passes, or none where
+/// the pool is null.
 struct Variant {
     std::string name;
     std::vector<std::string> passes;
@@ -23,8 +24,8 @@ Statistics statisticsOf(std::vector<double> samples);
 struct Timing {
     std::string name;
     Statistics steady;              ///< from one repeat's start to the next one's, many in a command buffer
-    Statistics single;              ///< first to last timestamp of a lone repeat, submitted and waited for
-    std::vector<Statistics> passes; ///< of the steady repeats
+    Statistics single;              ///< of a lone repeat, submitted and waited for
+    std::vector<Statistics> passes; ///< of repeats with timestamps between the passes, which then do not overlap
     std::vector<std::string> passNames;
 };
 
