@@ -17,10 +17,11 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
      .array = true},
     {.name = "nacre bank raw pyramid", .bytes = bankRawBytes},
     {.name = "nacre bank blurred pyramid", .bytes = bankBlurredBytes},
-    {.name = "nacre bank blurred surfaces", .bytes = bankBlurredBytes},
+    {.name = "nacre bank borrowed surfaces", .bytes = bankBlurredBytes},
     {.name = "nacre bank quads", .bytes = bankQuadBytes},
     {.name = "nacre bank areas", .bytes = bankAreaBytes},
     {.name = "nacre bank tiles", .bytes = bankTileBytes},
+    {.name = "nacre bank materials", .bytes = bankQuadBytes},
 }};
 
 const std::array<const Technique*, techniqueCount> techniques{

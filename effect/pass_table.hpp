@@ -24,6 +24,7 @@ enum class Intermediate : std::uint32_t {
     BankQuads = intermediateBankQuads,
     BankAreas = intermediateBankAreas,
     BankTiles = intermediateBankTiles,
+    BankMaterials = intermediateBankMaterials,
     Count
 };
 inline constexpr std::size_t intermediateCount = static_cast<std::size_t>(Intermediate::Count);

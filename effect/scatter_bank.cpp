@@ -10,6 +10,8 @@
 #include "bank_reduce.spv.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 
 namespace nacre::effect {
@@ -22,14 +24,14 @@ namespace constants {
 static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
 static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
               constants::bankBinCount == BankTable::binCount);
-static_assert(BankTable::halvesPerBin == 2 * bankBinWords);
+static_assert(BankTable::halvesPerBin == 3 * bankBinWords && bankBinWords == bankSize);
+static_assert(bankTableWords == 1 + bankBinWords * (constants::bankBinCount - 1));
 
-constexpr std::size_t tableBytes = sizeof(std::uint32_t) * bankTableWords;
-static_assert(bankTableWords == bankTableHead + bankBinWords * constants::bankBinCount && tableBytes % 16 == 0);
+constexpr std::size_t tableBytes = sizeof(uvec4) * bankTableWords;
 
 constexpr std::uint32_t tileSize = 32;          // px, bank.glsl
 constexpr std::uint32_t blurSide = 16;          // texels, bank_blur.comp
-constexpr std::uint32_t rawTexelsPerTile = 341; // levels 1 … 5
+constexpr std::uint32_t texelsPerTile = 341; // levels 1 … 5
 
 VkExtent2D tileCount(VkExtent2D area) {
     return {(area.width + tileSize - 1) / tileSize, (area.height + tileSize - 1) / tileSize};
@@ -55,16 +57,37 @@ VkExtent3D blurGrid(VkExtent2D area) {
     return {std::min<std::uint32_t>(count, bankDispatchWidth), (count + bankDispatchWidth - 1) / bankDispatchWidth, 1};
 }
 
-void buildTable(const Material& material, const Profile& profile, std::span<std::byte> bytes) {
-    const BankTable table(profile);
-    const float head[] = {table.binOffset(), static_cast<float>(material.strength)};
-    std::memcpy(bytes.data(), head, sizeof(head));
-    std::memcpy(bytes.data() + sizeof(std::uint32_t) * bankTableHead, table.halves().data(),
-                table.halves().size_bytes());
+// Texels of the whole pyramid.
+VkDeviceSize texelCount(VkExtent2D maxExtent) {
+    const VkExtent2D tiles = tileCount(maxExtent);
+    const VkExtent2D coarsest = levelExtent(maxExtent, bankLevels);
+    return VkDeviceSize{texelsPerTile} * tiles.width * tiles.height + coarsest.width * coarsest.height;
 }
 
+// A kernel's weights at a bin and the next: three halves each.
+uvec4 packWeights(const std::uint16_t* bin, const std::uint16_t* next) {
+    const auto pack = [](std::uint16_t low, std::uint16_t high) {
+        return low | static_cast<std::uint32_t>(high) << 16;
+    };
+    return {pack(bin[0], bin[1]), pack(next[0], next[1]), pack(bin[2], next[2]), 0};
+}
+
+void buildTable(const Material& material, const Profile& profile, std::span<std::byte> bytes) {
+    const BankTable table(profile);
+    const std::uint16_t* halves = table.halves().data();
+    std::array<uvec4, bankTableWords> words{};
+    words[0].x = std::bit_cast<std::uint32_t>(table.binOffset());
+    words[0].y = std::bit_cast<std::uint32_t>(static_cast<float>(material.strength));
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        words[i] = packWeights(halves, halves + BankTable::halvesPerBin);
+        halves += 3;
+    }
+    std::memcpy(bytes.data(), words.data(), sizeof(words));
+}
+
+constexpr IntermediateSet raw = bit(Intermediate::BankRaw);
 constexpr IntermediateSet blurred = bit(Intermediate::BankBlurred) | bit(Intermediate::BankSurfaces);
-constexpr IntermediateSet quads = bit(Intermediate::BankQuads);
+constexpr IntermediateSet quads = bit(Intermediate::BankQuads) | bit(Intermediate::BankMaterials);
 constexpr IntermediateSet areas = bit(Intermediate::BankAreas);
 constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
 
@@ -72,27 +95,27 @@ constexpr Pass passes[] = {
     {.name = "nacre bank reduce",
      .file = "bank_reduce",
      .spirv = bank_reduce_spv,
-     .writes = bit(Intermediate::BankRaw) | quads | areas | tiles,
+     .writes = raw | quads | areas | tiles,
      .grid = nacre::effect::tiles<tileSize, tileSize>,
      .asksMaterials = true},
     {.name = "nacre bank blur",
      .file = "bank_blur",
      .spirv = bank_blur_spv,
-     .reads = bit(Intermediate::BankRaw),
-     .writes = blurred | tiles,
+     .reads = raw,
+     .writes = raw | blurred | tiles,
      .grid = blurGrid,
      .asksMaterials = true},
     {.name = "nacre bank combine edge",
      .file = "bank_combine_edge",
      .spirv = bank_combine_edge_spv,
-     .reads = blurred | quads | areas | tiles,
+     .reads = raw | blurred | quads | areas | tiles,
      .indirect = Intermediate::BankTiles,
      .indirectOffset = sizeof(BankDispatch),
      .asksMaterials = true},
     {.name = "nacre bank combine smooth",
      .file = "bank_combine_smooth",
      .spirv = bank_combine_smooth_spv,
-     .reads = blurred | quads | tiles,
+     .reads = raw | blurred | quads | tiles,
      .indirect = Intermediate::BankTiles,
      .indirectOffset = 0},
 };
@@ -100,25 +123,21 @@ constexpr Pass passes[] = {
 } // namespace
 
 VkDeviceSize bankRawBytes(VkExtent2D maxExtent) {
-    const VkExtent2D extent = tileCount(maxExtent);
-    return VkDeviceSize{sizeof(uvec4)} * rawTexelsPerTile * extent.width * extent.height;
+    return sizeof(uvec4) * texelCount(maxExtent);
 }
 
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
-    const VkExtent2D tiles = tileCount(maxExtent);
-    const VkExtent2D coarsest = levelExtent(maxExtent, bankLevels);
-    return VkDeviceSize{sizeof(uvec2)} *
-           (VkDeviceSize{rawTexelsPerTile} * tiles.width * tiles.height + coarsest.width * coarsest.height);
+    return sizeof(uvec2) * texelCount(maxExtent);
 }
 
 // One for each texel of level 1.
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent) {
     const VkExtent2D finest = levelExtent(maxExtent, 1);
-    return VkDeviceSize{sizeof(uvec4)} * finest.width * finest.height;
+    return VkDeviceSize{sizeof(uvec2)} * finest.width * finest.height;
 }
 
 VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
-    return bankQuadBytes(maxExtent) / sizeof(uvec4) * sizeof(std::uint32_t);
+    return bankQuadBytes(maxExtent) / sizeof(uvec2) * sizeof(std::uint32_t);
 }
 
 // The dispatches, then per tile its bits and, on either list, the places of its two regions.

@@ -5,17 +5,20 @@
 layout(constant_id = 0) const bool separateMaterials = false; // some do not exchange light with some others
 
 layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) buffer BankRaw {
-    uvec4 rawTexels[]; // levels 1 … 5
+    uvec4 rawTexels[]; // levels 1 … 6
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) buffer BankBlurred {
     uvec2 blurredLights[]; // levels 1 … 6: light and mass, with a sign where the texel is not plain
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std430) buffer BankSurfaces {
-    uvec2 blurredSurfaces[]; // levels 1 … 6: depth; material and presentBit
+    // Levels 1 … 6: depth and material that an empty texel's kernel stands on. A raw texel that is not empty has both.
+    uvec2 borrowedSurfaces[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) buffer BankQuads {
-    // 2x2 px each, as level 1 lies: depth; weights beside the middle of the full-resolution 3x3, x and y; materials.
-    uvec4 quads[];
+    uvec2 quads[]; // 2x2 px each, as level 1 lies: depth; packQuad
+};
+layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std430) buffer BankMaterials {
+    uvec2 quadMaterials[]; // as quads: of the four pixels, only where they differ
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) buffer BankAreas {
     uint quadAreas[]; // as quads: packAreas of the four pixels
@@ -29,7 +32,8 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) 
 const int tileSize = 32; // px; level l has tileSize / 2^l texels a side in each tile
 const int rawLevels = 5; // level 6 is reduced by the blur
 const float maxHalf = 65504.0;
-const uint presentBit = 0x10000u; // in the last word of a surface, above the material
+const uint massBits = 0x7fffu; // of a raw texel's last word; 0 = empty
+const uint fullMass = 0x3c00u;
 const uint signBit = 0x80000000u;
 
 // A texel of the reduced pyramid.
@@ -58,7 +62,8 @@ RawTexel emptyTexel() {
 
 uvec4 packRaw(RawTexel texel) {
     uint mass = packHalf2x16(vec2(texel.dropped ? -texel.mass : texel.mass, 0.0));
-    return uvec4(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.area)),
+    vec3 light = min(texel.light, vec3(maxHalf));
+    return uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, texel.area)),
                  floatBitsToUint(texel.depth), mass | texel.material << 16);
 }
 
@@ -71,12 +76,44 @@ RawTexel unpackRaw(uvec4 words) {
 }
 
 // A texel is plain where the surface is and stays smooth: bilinear weights will do for it.
-void storeBlurredTexel(int index, BlurredTexel texel) {
+uvec2 packBlurred(BlurredTexel texel) {
     uint sign = texel.present && !texel.rough ? 0u : signBit;
-    blurredLights[index] =
-        uvec2(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)) | sign);
-    blurredSurfaces[index] =
-        uvec2(floatBitsToUint(texel.depth), texel.material | (texel.present ? presentBit : 0u));
+    return uvec2(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)) | sign);
+}
+
+// What the combination knows of 2x2 px. Where one material is all of theirs it stands in the second word, above the
+// weights beside the middle of the full-resolution 3x3 in x and y, 7 bits each.
+struct Quad {
+    float depth;
+    vec2 beside;
+    uvec2 materials; // of the four pixels, 16 bits each
+};
+
+const uint mixedBit = 0x8000u; // the materials are in quadMaterials
+
+void storeQuad(int index, Quad quad) {
+    bool mixed = quad.materials != uvec2((quad.materials.x & 0xffffu) * 0x10001u);
+    uvec2 beside = uvec2(254.0 * quad.beside + 0.5);
+    quads[index] = uvec2(floatBitsToUint(quad.depth),
+                         beside.x | beside.y << 7 | (mixed ? mixedBit : quad.materials.x << 16));
+    if (mixed) {
+        quadMaterials[index] = quad.materials;
+    }
+}
+
+// `words`: quads[index].
+uvec2 materialsOf(uvec2 words, int index) {
+    return (words.y & mixedBit) != 0u ? quadMaterials[index] : uvec2((words.y >> 16) * 0x10001u);
+}
+
+Quad unpackQuad(uvec2 words, uvec2 materials) {
+    return Quad(uintBitsToFloat(words.x), vec2(words.y & 127u, words.y >> 7 & 127u) / 254.0, materials);
+}
+
+// The material of one of a quad's pixels, which is at an even or odd place in x and y.
+uint pixelMaterial(uvec2 materials, ivec2 local) {
+    uint words = (local.y & 1) == 0 ? materials.x : materials.y;
+    return (local.x & 1) == 0 ? words & 0xffffu : words >> 16;
 }
 
 // Levels are made of whole tiles, level 6 of half ones; what lies outside the image is empty.
@@ -93,9 +130,11 @@ int texelIndex(int level, ivec2 texel) {
     return place.x + texel.y * place.y + texel.x;
 }
 
-RawTexel rawTexel(int level, ivec2 texel) {
-    bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, levelExtent(level)));
-    return inside ? unpackRaw(rawTexels[texelIndex(level, texel)]) : emptyTexel();
+// A texel's words; those of an empty one outside the level.
+uvec4 rawWords(int level, ivec2 texel) {
+    ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
+    uvec4 words = rawTexels[texelIndex(level, inside)];
+    return texel == inside ? words : uvec4(0u);
 }
 
 // Position of one of the places around a block, counted row above, row below, then the sides.

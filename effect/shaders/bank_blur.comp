@@ -12,8 +12,6 @@ const int threads = 128;
 const int side = 16;
 const int halo = 2;
 const int pitch = side + 2 * halo;
-// The five weights, and a 0 on either side for the rows that only one of a pair of texels reads.
-const float binomial[7] = float[](0.0, 1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0, 0.0);
 
 // The block's texels with two around, in the words of packRaw.
 shared uvec2 lights[pitch * pitch];
@@ -101,20 +99,20 @@ void storeShared(int index, uvec4 words) {
     massesAndMaterials[index] = words.w;
 }
 
+const int blockSteps = (pitch * pitch + threads - 1) / threads;
+
+ivec2 placeOf(Block block, int index) {
+    return block.first - halo + ivec2(index % pitch, index / pitch);
+}
+
 // All fetches before any of them is used, so that they overlap.
 void loadBlock(Block block, int thread) {
-    const int steps = (pitch * pitch + threads - 1) / threads;
-    uvec4 words[steps];
-    ivec2 extent = levelExtent(block.level);
-    ivec2 first = block.first - halo;
-    [[unroll]] for (int i = 0; i < steps; ++i) {
-        int index = thread + i * threads;
-        ivec2 texel = first + ivec2(index % pitch, index / pitch);
-        words[i] = rawTexels[texelIndex(block.level, clamp(texel, ivec2(0), extent - 1))];
-        words[i] = texel == clamp(texel, ivec2(0), extent - 1) ? words[i] : uvec4(0u);
+    uvec4 words[blockSteps];
+    [[unroll]] for (int i = 0; i < blockSteps; ++i) {
+        words[i] = rawWords(block.level, placeOf(block, thread + i * threads));
     }
     uint roughness = 0u;
-    [[unroll]] for (int i = 0; i < steps; ++i) {
+    [[unroll]] for (int i = 0; i < blockSteps; ++i) {
         int index = thread + i * threads;
         if (index < pitch * pitch) {
             storeShared(index, words[i]);
@@ -124,16 +122,25 @@ void loadBlock(Block block, int thread) {
     noteRoughness(roughness);
 }
 
+// Of the texels around a block only those inside it are this workgroup's to store.
+void storeOwn(Block block, ivec2 texel, uvec4 words) {
+    ivec2 last = min(block.first + side, levelExtent(block.level));
+    if (all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last))) {
+        rawTexels[texelIndex(block.level, texel)] = words;
+    }
+}
+
 // Level 6 is reduced here, from the level pass A ends with.
 void loadCoarsestBlock(Block block, int thread) {
     for (int index = thread; index < pitch * pitch; index += threads) {
-        ivec2 texel = block.first - halo + ivec2(index % pitch, index / pitch);
+        ivec2 texel = placeOf(block, index);
         RawTexel children[4];
-        for (int i = 0; i < 4; ++i) {
-            children[i] = rawTexel(rawLevels, 2 * texel + ivec2(i & 1, i >> 1));
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            children[i] = unpackRaw(rawWords(rawLevels, 2 * texel + ivec2(i & 1, i >> 1)));
         }
         uvec4 words = packRaw(reduceTexels(children, block.level));
         storeShared(index, words);
+        storeOwn(block, texel, words);
         noteRoughness(roughnessOf(words, index));
     }
 }
@@ -193,25 +200,20 @@ void divide(inout BlurredTexel texel, Sums sums) {
     texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
 }
 
-// Blurs a texel and the one below it, which have four of five rows of taps in common.
-void blurPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
-    upper = findSurface(level, center);
-    lower = findSurface(level, center + pitch);
-    float upperWidth = texelWidth(level, upper.depth);
-    float lowerWidth = texelWidth(level, lower.depth);
-    Sums upperSums = Sums(vec3(0.0), 0.0, 0.0, 0.0);
-    Sums lowerSums = upperSums;
-    [[dont_unroll]] for (int y = 0; y < 6; ++y) {
-        float upperRow = binomial[y + 1];
-        float lowerRow = binomial[y];
+// Blurs a texel, whatever is around it.
+BlurredTexel blurTexel(int level, int center) {
+    const float binomial[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
+    BlurredTexel result = findSurface(level, center);
+    float width = texelWidth(level, result.depth);
+    Sums sums = Sums(vec3(0.0), 0.0, 0.0, 0.0);
+    [[dont_unroll]] for (int y = 0; y < 5; ++y) {
         [[unroll]] for (int x = 0; x < 5; ++x) {
             RawTexel tap = texelAt(center + x - halo + (y - halo) * pitch);
-            addTap(upperSums, tap, upper, binomial[x + 1] * upperRow, upperWidth);
-            addTap(lowerSums, tap, lower, binomial[x + 1] * lowerRow, lowerWidth);
+            addTap(sums, tap, result, binomial[x] * binomial[y], width);
         }
     }
-    divide(upper, upperSums);
-    divide(lower, lowerSums);
+    divide(result, sums);
+    return result;
 }
 
 // Where a plain texel's kernel stands, and what scales squared depth differences from there.
@@ -238,6 +240,7 @@ BlurredTexel plainTexel(vec4 sum, int index) {
     return BlurredTexel(sum.rgb / sum.w, 1.0, depths[index], massesAndMaterials[index] >> 16, true, false);
 }
 
+// Blurs a texel and the one below it, which have four of five rows of taps in common.
 void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
     const float roots[5] = float[](0.5, 0.70710678, 0.78254229, 0.70710678, 0.5); // of 1, 4, 6, 4, 1 sixteenths
     PlainCenter upperCenter = plainCenter(level, center);
@@ -260,10 +263,16 @@ void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTex
     lower = plainTexel(lowerSum, center + pitch);
 }
 
-void storeBlurred(int level, ivec2 texel, BlurredTexel blurred) {
-    if (all(lessThan(texel, levelExtent(level)))) {
-        storeBlurredTexel(texelIndex(level, texel),
-                          blurred.present ? blurred : BlurredTexel(vec3(0.0), 0.0, 0.0, 0u, false, true));
+void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
+    ivec2 texel = block.first + local;
+    if (any(greaterThanEqual(texel, levelExtent(block.level)))) {
+        return;
+    }
+    int index = texelIndex(block.level, texel);
+    blurredLights[index] = blurred.present ? packBlurred(blurred) : uvec2(0u, signBit);
+    bool isEmpty = depths[(local.y + halo) * pitch + local.x + halo] == 0.0;
+    if (isEmpty && blurred.present) {
+        borrowedSurfaces[index] = uvec2(floatBitsToUint(blurred.depth), blurred.material);
     }
 }
 
@@ -308,15 +317,17 @@ void main() {
     barrier();
     ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, 2);
     int center = (local.y + halo) * pitch + local.x + halo;
-    BlurredTexel upper;
-    BlurredTexel lower;
     if (separateMaterials || rough != anything) {
-        blurPair(block.level, center, upper, lower);
+        [[dont_unroll]] for (int i = 0; i < 2; ++i) {
+            storeBlurred(block, local + ivec2(0, i), blurTexel(block.level, center + i * pitch));
+        }
     } else {
+        BlurredTexel upper;
+        BlurredTexel lower;
         blurPlainPair(block.level, center, upper, lower);
+        storeBlurred(block, local, upper);
+        storeBlurred(block, local + ivec2(0, 1), lower);
     }
-    storeBlurred(block.level, block.first + local, upper);
-    storeBlurred(block.level, block.first + local + ivec2(0, 1), lower);
     if (thread < 2 && block.level == 1) {
         listRegion(block.first / side, uint(thread));
     }

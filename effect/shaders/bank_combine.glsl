@@ -5,7 +5,7 @@
 
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
-    uvec4 bankTables[]; // bankTableWords / 4 a material: its head, then three a bin: 24 halves
+    uvec4 bankTables[]; // bankTableWords a material
 };
 
 const int threads = 128;
@@ -32,7 +32,8 @@ shared float pixelDepths[isEdge ? 2 * pairCount : 1];
 shared float pixelAreas[isEdge ? 2 * pairCount : 1]; // of the surface, relative to one that faces the camera
 shared uint pixelMaterials[isEdge && separateMaterials ? 2 * pairCount : 1];
 shared uvec2 levelLights[levelTexelCount]; // as blurredLights
-shared uvec2 fineSurfaces[isEdge ? fineCount : 1]; // as blurredSurfaces
+// Depth, and a raw texel's last word: mass (0 = no surface near) and material.
+shared uvec2 fineSurfaces[isEdge ? fineCount : 1];
 shared uvec2 coarseSurfaces[coarseCount];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
@@ -93,12 +94,6 @@ int pixelPlace(ivec2 pixel) {
     return (pixel.x & 1) * pairCount + pixel.y * pairPitch + (pixel.x >> 1);
 }
 
-// One of the materials of a quad, whose pixel is at an even or odd place in x and y.
-uint quadMaterial(uvec4 quad, ivec2 local) {
-    uint words = (local.y & 1) == 0 ? quad.z : quad.w;
-    return (local.x & 1) == 0 ? words & 0xffffu : words >> 16;
-}
-
 struct Fetched {
     vec3 light;
     float z;
@@ -125,6 +120,15 @@ void storePixel(ivec2 pixel, Fetched fetched, uint material, float area) {
     }
 }
 
+// The surface of a texel: its own or, where it is empty and light reaches it, the one it has borrowed.
+uvec2 surfaceOf(int index, uvec2 own, uvec2 light) {
+    if ((own.y & massBits) != 0u || light == uvec2(0u, signBit)) {
+        return own;
+    }
+    uvec2 borrowed = borrowedSurfaces[index];
+    return uvec2(borrowed.x, borrowed.y << 16 | fullMass);
+}
+
 void storeLevelTexel(int index, int level, uvec2 light) {
     levelLights[index] = light;
     if ((light.y & signBit) != 0u) {
@@ -133,14 +137,14 @@ void storeLevelTexel(int index, int level, uvec2 light) {
 }
 
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
-uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
+Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
     ivec2 fineTexel = (region >> 1) + texel;
     int fine = texelIndex(1, fineTexel);
-    uvec4 quad = quads[fine];
+    uvec2 quadWords = quads[fine];
     uint areas = isEdge ? quadAreas[fine] : 0u;
     uvec2 fineLight = blurredLights[fine];
-    uvec2 fineSurface = isEdge ? blurredSurfaces[fine] : uvec2(0u);
+    uvec2 fineSurface = isEdge ? rawTexels[fine].zw : uvec2(0u);
     ivec2 near = min(2 * fineTexel, last);
     ivec2 far = min(2 * fineTexel + 1, last);
     Fetched own[4] = Fetched[](fetchPixel(near), fetchPixel(ivec2(far.x, near.y)), fetchPixel(ivec2(near.x, far.y)),
@@ -149,22 +153,24 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 fineRing = ringPosition(min(ringThread, fineRingCount - 1), fineSize);
     int ringIndex = globalIndex(1, (region >> 1) + fineRing);
     uvec2 ringLight = blurredLights[ringIndex];
-    uvec2 ringSurface = isEdge ? blurredSurfaces[ringIndex] : uvec2(0u);
+    uvec2 ringSurface = isEdge ? rawTexels[ringIndex].zw : uvec2(0u);
     int level;
     int coarse = coarseIndex(min(thread, coarseCount - 1), region, level);
     uvec2 coarseLight = blurredLights[coarse];
-    uvec2 coarseSurface = blurredSurfaces[coarse];
+    uvec2 coarseSurface = rawTexels[coarse].zw;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     ivec2 ringPixel = clamp(region + ring, ivec2(0), last);
     int ringQuadIndex = texelIndex(1, ringPixel >> 1);
-    uvec4 ringQuad = quads[ringQuadIndex];
+    uvec2 ringQuad = quads[ringQuadIndex];
     uint ringAreas = isEdge ? quadAreas[ringQuadIndex] : 0u;
     Fetched ringFetched = fetchPixel(ringPixel);
-    uint ringMaterial = ringPixel == region + ring ? quadMaterial(ringQuad, ringPixel) : 0u;
+    Quad quad = unpackQuad(quadWords, materialsOf(quadWords, fine));
+    uint ringMaterial = pixelMaterial(materialsOf(ringQuad, ringQuadIndex), ringPixel);
+    ringMaterial = ringPixel == region + ring ? ringMaterial : 0u;
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
             ivec2 offset = ivec2(i & 1, i >> 1);
-            own[i].light *= albedoBefore(min(near + offset, last) + view.areaOffset, quadMaterial(quad, offset));
+            own[i].light *= albedoBefore(min(near + offset, last) + view.areaOffset, pixelMaterial(quad.materials, offset));
         }
         ringFetched.light *= albedoBefore(ringPixel + view.areaOffset, ringMaterial);
     }
@@ -175,17 +181,17 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
     }
     if (thread < coarseCount) {
         storeLevelTexel(fineCount + thread, level, coarseLight);
-        coarseSurfaces[thread] = coarseSurface;
+        coarseSurfaces[thread] = surfaceOf(coarse, coarseSurface, coarseLight);
     }
     if (isEdge) {
-        fineSurfaces[fineIndex(texel)] = fineSurface;
+        fineSurfaces[fineIndex(texel)] = surfaceOf(fine, fineSurface, fineLight);
         if (ringThread < fineRingCount) {
-            fineSurfaces[fineIndex(fineRing)] = ringSurface;
+            fineSurfaces[fineIndex(fineRing)] = surfaceOf(ringIndex, ringSurface, ringLight);
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        storePixel(2 * texel + 1 + offset, own[i], quadMaterial(quad, offset), unpackAreas(areas)[i]);
+        storePixel(2 * texel + 1 + offset, own[i], pixelMaterial(quad.materials, offset), unpackAreas(areas)[i]);
     }
     if (thread < ringCount) {
         float ringArea = unpackAreas(ringAreas)[(ringPixel.x & 1) + 2 * (ringPixel.y & 1)];
@@ -196,37 +202,25 @@ uvec4 loadRegion(ivec2 region, int thread, ivec2 texel) {
 
 // A material's weights of the kernels at a scale.
 struct Mixture {
-    uvec4 bins[6];  // of the table: the two around the scale, packed
-    float fraction; // [0, 1] towards the second
+    uint first;     // of the bin, in bankTables
+    float fraction; // [0, 1] towards the next
     float strength;
 };
 
 Mixture findMixture(uint material, float depth) {
-    uint first = material * (bankTableWords / 4u);
+    uint first = material * bankTableWords;
     vec2 head = uintBitsToFloat(bankTables[first].xy);
     float position = head.x - float(bankBinsPerOctave) * log2(texelWidth(0, depth));
     position = clamp(position, 0.0, float(bankBinCount - 1));
     uint bin = min(uint(position), uint(bankBinCount - 2));
-    first += bankTableHead / 4u + bin * (bankBinWords / 4u);
-    Mixture mixture;
-    [[unroll]] for (uint i = 0u; i < 6u; ++i) {
-        mixture.bins[i] = bankTables[first + i];
-    }
-    mixture.fraction = position - float(bin);
-    mixture.strength = head.y;
-    return mixture;
+    return Mixture(first + 1u + bin * bankBinWords, position - float(bin), head.y);
 }
 
-// Red, green and blue of a kernel: halves 3·kernel … of a bin.
-vec3 binWeight(Mixture mixture, int bin, int kernel) {
-    int word = 3 * kernel / 2;
-    vec2 low = unpackHalf2x16(mixture.bins[3 * bin + word / 4][word % 4]);
-    vec2 high = unpackHalf2x16(mixture.bins[3 * bin + (word + 1) / 4][(word + 1) % 4]);
-    return (kernel & 1) == 0 ? vec3(low, high.x) : vec3(low.y, high);
-}
-
+// Red, green and blue.
 vec3 kernelWeight(Mixture mixture, int kernel) {
-    return mix(binWeight(mixture, 0, kernel), binWeight(mixture, 1, kernel), mixture.fraction);
+    uvec4 words = bankTables[mixture.first + uint(kernel)];
+    vec2 blue = unpackHalf2x16(words.z);
+    return mix(vec3(unpackHalf2x16(words.x), blue.x), vec3(unpackHalf2x16(words.y), blue.y), mixture.fraction);
 }
 
 vec4 unpackLight(uvec2 words) {
@@ -322,7 +316,7 @@ struct Tap {
 
 Tap weightedTap(uvec2 light, uvec2 surface, float depth, float scale, uint material) {
     float difference = uintBitsToFloat(surface.x) - depth;
-    bool taken = surface.y >= presentBit && givesLight(surface.y & 0xffffu, material);
+    bool taken = (surface.y & massBits) != 0u && givesLight(surface.y >> 16, material);
     float weight = taken ? falloff(difference * difference * scale) : 0.0;
     return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight, weight * difference);
 }
@@ -369,7 +363,7 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
 // The levels from 2 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
 void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, vec4 offsets,
                      uint material) {
-    [[unroll]] for (int level = 2; level <= bankLevels; ++level) {
+    [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
         vec3 weight = kernelWeight(mixture, level + 1);
         if (weight != vec3(0.0)) {
             Corner corner = levelCorner(level, region, quad);
@@ -409,14 +403,14 @@ void storeGroup(ivec2 quad, bvec4 members, uint material, float strength, vec4 o
 }
 
 // Writes the pixels of a quad that have no material.
-void storeRest(ivec2 quad, uint quadMaterials[4]) {
-    if (min(min(quadMaterials[0], quadMaterials[1]), min(quadMaterials[2], quadMaterials[3])) != 0u) {
+void storeRest(ivec2 quad, uint ownMaterials[4]) {
+    if (min(min(ownMaterials[0], ownMaterials[1]), min(ownMaterials[2], ownMaterials[3])) != 0u) {
         return;
     }
     for (int i = 0; i < 4; ++i) {
         ivec2 local = quad + ivec2(i & 1, i >> 1);
-        uint material = i < 2 ? (i == 0 ? quadMaterials[0] : quadMaterials[1])
-                              : (i == 2 ? quadMaterials[2] : quadMaterials[3]);
+        uint material = i < 2 ? (i == 0 ? ownMaterials[0] : ownMaterials[1])
+                              : (i == 2 ? ownMaterials[2] : ownMaterials[3]);
         if (material == 0u && all(lessThan(local, view.areaExtent))) {
             writeUnscattered(local + view.areaOffset);
         }

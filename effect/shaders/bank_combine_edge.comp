@@ -124,32 +124,32 @@ void main() {
         roughLevels = 0u;
     }
     barrier();
-    uvec4 quadWords = loadRegion(group.region, thread, texel);
+    Quad quad = loadRegion(group.region, thread, texel);
     barrier();
     group.quad = group.region + 2 * texel;
     group.first = 2 * texel + 1;
-    uint quadMaterials[4];
+    uint ownMaterials[4];
     uint left = 0u; // bits of the pixels that are still to be combined
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
         group.depths[i] = pixelDepths[pixelPlace(group.first + offset)];
-        quadMaterials[i] = group.depths[i] > 0.0 ? quadMaterial(quadWords, offset) : 0u;
-        left |= quadMaterials[i] != 0u ? 1u << i : 0u;
+        ownMaterials[i] = group.depths[i] > 0.0 ? pixelMaterial(quad.materials, offset) : 0u;
+        left |= ownMaterials[i] != 0u ? 1u << i : 0u;
     }
     // One round for every material and surface in the quad.
     while (left != 0u) {
         int leader = findLSB(left);
-        group.material = leader < 2 ? (leader == 0 ? quadMaterials[0] : quadMaterials[1])
-                                    : (leader == 2 ? quadMaterials[2] : quadMaterials[3]);
+        group.material = leader < 2 ? (leader == 0 ? ownMaterials[0] : ownMaterials[1])
+                                    : (leader == 2 ? ownMaterials[2] : ownMaterials[3]);
         group.depth = leader < 2 ? (leader == 0 ? group.depths.x : group.depths.y)
                                  : (leader == 2 ? group.depths.z : group.depths.w);
         float separation = bankSurfaceSeparation * texelWidth(1, group.depth);
         [[unroll]] for (int i = 0; i < 4; ++i) {
-            group.members[i] = (left >> i & 1u) != 0u && quadMaterials[i] == group.material &&
+            group.members[i] = (left >> i & 1u) != 0u && ownMaterials[i] == group.material &&
                                abs(group.depths[i] - group.depth) <= separation;
             left &= group.members[i] ? ~(1u << i) : ~0u;
         }
         combineGroup(group);
     }
-    storeRest(group.quad, quadMaterials);
+    storeRest(group.quad, ownMaterials);
 }

@@ -31,35 +31,33 @@ void main() {
         roughLevels = 0u;
     }
     barrier();
-    uvec4 quadWords = loadRegion(region, thread, texel);
+    Quad quad = loadRegion(region, thread, texel);
     barrier();
-    uint quadMaterials[4] =
-        uint[](quadWords.z & 0xffffu, quadWords.z >> 16, quadWords.w & 0xffffu, quadWords.w >> 16);
-    float depth = uintBitsToFloat(quadWords.x);
-    vec2 beside = unpackHalf2x16(quadWords.y);
-    ivec2 quad = region + 2 * texel;
+    uint ownMaterials[4] =
+        uint[](quad.materials.x & 0xffffu, quad.materials.x >> 16, quad.materials.y & 0xffffu, quad.materials.y >> 16);
+    ivec2 first = region + 2 * texel;
     uint left = 0u; // bits of the pixels that are still to be combined
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        left |= quadMaterials[i] != 0u ? 1u << i : 0u;
+        left |= ownMaterials[i] != 0u ? 1u << i : 0u;
     }
     // One round for every material in the quad.
     while (left != 0u) {
-        uint material = (left & 1u) != 0u   ? quadMaterials[0]
-                        : (left & 2u) != 0u ? quadMaterials[1]
-                        : (left & 4u) != 0u ? quadMaterials[2]
-                                            : quadMaterials[3];
+        uint material = (left & 1u) != 0u   ? ownMaterials[0]
+                        : (left & 2u) != 0u ? ownMaterials[1]
+                        : (left & 4u) != 0u ? ownMaterials[2]
+                                            : ownMaterials[3];
         bvec4 members;
         [[unroll]] for (int i = 0; i < 4; ++i) {
-            members[i] = quadMaterials[i] == material;
+            members[i] = ownMaterials[i] == material;
             left &= members[i] ? ~(1u << i) : ~0u;
         }
-        Mixture mixture = findMixture(material, depth);
+        Mixture mixture = findMixture(material, quad.depth);
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
         vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), 2 * texel + 1);
-        addSlopePixels(sums, kernelWeight(mixture, 1), 2 * texel + 1, beside);
+        addSlopePixels(sums, kernelWeight(mixture, 1), 2 * texel + 1, quad.beside);
         addFinestLevel(sums, kernelWeight(mixture, 2), texel);
-        addCoarseLevels(sums, mixture, region, quad, depth, vec4(0.0), material);
-        storeGroup(quad, members, material, mixture.strength, own, sums);
+        addCoarseLevels(sums, mixture, region, first, quad.depth, vec4(0.0), material);
+        storeGroup(first, members, material, mixture.strength, own, sums);
     }
-    storeRest(quad, quadMaterials);
+    storeRest(first, ownMaterials);
 }

@@ -98,12 +98,11 @@ vec2 blockSlope(RawTexel pixels[4], bvec4 kept, float depth) {
 }
 
 // A texel of level 1, and its entry of `quads`.
-RawTexel reducePixels(RawTexel pixels[4], out uvec4 quad) {
+RawTexel reducePixels(RawTexel pixels[4], out Quad quad) {
     bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
     RawTexel texel = mergeTexels(pixels, kept);
-    vec2 beside = weightsBeside(blockSlope(pixels, kept, texel.depth));
-    quad = uvec4(floatBitsToUint(texel.depth), packHalf2x16(beside), pixels[0].material | pixels[1].material << 16,
-                 pixels[2].material | pixels[3].material << 16);
+    quad = Quad(texel.depth, weightsBeside(blockSlope(pixels, kept, texel.depth)),
+                uvec2(pixels[0].material | pixels[1].material << 16, pixels[2].material | pixels[3].material << 16));
     return texel;
 }
 
@@ -167,7 +166,7 @@ void main() {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         pixels[i] = toTexel(decoded[i], place + (i & 1) + (i >> 1) * pitch);
     }
-    uvec4 quad;
+    Quad quad;
     RawTexel reduced = reducePixels(pixels, quad);
     reduced.dropped = reduced.dropped || dropped;
     uvec4 packed = packRaw(reduced);
@@ -177,7 +176,7 @@ void main() {
     texels[thread] = packed;
     int index = texelIndex(1, tile * side + texel);
     rawTexels[index] = packed;
-    quads[index] = quad;
+    storeQuad(index, quad);
     quadAreas[index] = packAreas(max(vec4(pixels[0].area, pixels[1].area, pixels[2].area, pixels[3].area), 1.0));
     barrier();
     if (occupied != 0u) {

@@ -66,6 +66,7 @@ NACRE_CONSTANT intermediateBankSurfaces = 5;
 NACRE_CONSTANT intermediateBankQuads = 6;
 NACRE_CONSTANT intermediateBankAreas = 7;
 NACRE_CONSTANT intermediateBankTiles = 8;
+NACRE_CONSTANT intermediateBankMaterials = 9;
 
 NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
 
@@ -148,11 +149,10 @@ struct BrutePixel {
     vec2 unused;
 };
 
-// Mixture table of `bank` in 4-byte words: a head that holds the bin offset and the strength (floats), then 24 half floats a bin
-// (BankTable in nacre/bank.hpp).
-NACRE_CONSTANT bankTableHead = 4;
-NACRE_CONSTANT bankBinWords = 12;
-NACRE_CONSTANT bankTableWords = bankTableHead + 113 * bankBinWords;
+// Mixture table of `bank` in 16-byte words: a head that holds the bin offset and the strength (floats), then of each bin but
+// the last its eight kernels: halves red and green; those of the next bin; blue and that of the next bin; nothing.
+NACRE_CONSTANT bankBinWords = 8;
+NACRE_CONSTANT bankTableWords = 1 + 112 * bankBinWords;
 // Workgroups along x of the combination's dispatches; longer lists take several rows.
 NACRE_CONSTANT bankDispatchWidth = 32768;
 struct BankDispatch {

@@ -1,11 +1,12 @@
 // View-space geometry of a pixel: position in mm, pixel size in mm. Needs `view`, a ViewParameters, and `depthImage`.
 
 bool isFinite(float value) {
-    return !isnan(value) && !isinf(value);
+    return (floatBitsToUint(value) & 0x7fffffffu) < 0x7f800000u;
 }
 
+// Not where the sum is beyond a float, either.
 bool isFinite(vec3 value) {
-    return !any(isnan(value)) && !any(isinf(value));
+    return isFinite(value.x + value.y + value.z);
 }
 
 bool isInArea(ivec2 pixel) {
@@ -46,7 +47,7 @@ float clipW(float z) {
 
 // Whether something was drawn there, in front of the camera.
 bool isValidZ(float z) {
-    return isFinite(z) && clipW(z) > 0.0;
+    return clipW(z) > 0.0 && isFinite(z);
 }
 
 vec3 viewPosition(ivec2 pixel, float z) {
