@@ -15,6 +15,9 @@ const int bankBinCount = 113;
 // Reduction: pixels of a 2x2 block further apart in depth than this many texel widths are two surfaces, and the texel
 // keeps the one with more light-receiving area.
 const float bankSurfaceSeparation = 3.0f;
+// Reduction: a 2x2 block is plain, and reduced without asking for surfaces, when no depth step from pixel to pixel, in it
+// and beside it, is longer than this many pixel widths. Up to 1.55 no texel of any level can then hold two surfaces.
+const float bankPlainStep = 1.5f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). Twice half the variance (in texels) of a whole level
 // would be 1.25: −0.4 dB.
 const float bankBlurDepthVariance = 2.0f;

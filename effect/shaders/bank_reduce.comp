@@ -7,84 +7,151 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-const int threads = 256;
 const int side = 16; // texels of level 1
 
-// Level 1; each coarser level then stands at its first child's place.
+// Level 1; where the tile is not plain, each coarser level then stands at its first child's place.
 shared uvec4 texels[side * side];
-shared uint occupied;
+shared uvec4 plainTexels[80]; // levels 2 and 3 of a plain tile
 // Of the tile's pixels and one around, mm; 0 where none receives light.
 const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
+shared uint occupied; // whether some pixel receives light
+shared uint notPlain; // whether some block is not plain
 
-// What is fetched of a 2x2 block: everything before anything is asked, so that the fetches overlap.
-struct Fetched {
-    uint id[4];
-    float depth[4];
-    vec3 light[4];
+// 2x2 px, row by row.
+struct Block {
+    uint material[4];
+    float depth[4]; // mm, 0 where none receives light
+    vec3 light[4];  // as it enters
 };
 
-ivec2 pixelOf(ivec2 first, int i) {
-    return min(first + ivec2(i & 1, i >> 1), view.areaExtent - 1) + view.areaOffset;
+// A pixel of the image, as near as there is one.
+ivec2 imagePixel(ivec2 local) {
+    return clamp(local, ivec2(0), view.areaExtent - 1) + view.areaOffset;
 }
 
-Fetched fetchPixels(ivec2 first) {
-    Fetched fetched;
+bool isInExtent(ivec2 local) {
+    return all(greaterThanEqual(local, ivec2(0))) && all(lessThan(local, view.areaExtent));
+}
+
+ivec2 offsetOf(int i) {
+    return ivec2(i & 1, i >> 1);
+}
+
+// In `depths`; counted from the tile's first pixel.
+int depthPlace(ivec2 pixel) {
+    return (pixel.y + 1) * pitch + pixel.x + 1;
+}
+
+float receivingDepth(uint material, float z) {
+    return material != 0u && isValidZ(z) ? -z : 0.0;
+}
+
+// Everything is fetched before anything is asked, so that the fetches overlap. `light` is the irradiance.
+Block fetchBlock(ivec2 first) {
+    Block block;
+    uint id[4];
+    float depth[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 pixel = pixelOf(first, i);
-        fetched.id[i] = texelFetch(materialIdImage, pixel, 0).r;
-        fetched.depth[i] = texelFetch(depthImage, pixel, 0).r;
-        fetched.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
+        ivec2 pixel = imagePixel(first + offsetOf(i));
+        id[i] = texelFetch(materialIdImage, pixel, 0).r;
+        depth[i] = texelFetch(depthImage, pixel, 0).r;
+        block.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
     }
-    return fetched;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        block.material[i] = isInExtent(first + offsetOf(i)) ? materialOfId(id[i]) : 0u;
+        block.depth[i] = receivingDepth(block.material[i], viewZ(imagePixel(first + offsetOf(i)), depth[i]));
+    }
+    return block;
 }
 
 // The tile's ring of pixels around: one a thread.
 void loadRing(ivec2 tileFirst, int thread) {
     ivec2 place = ringPosition(min(thread, 4 * tileSize + 3), ivec2(tileSize));
-    ivec2 local = tileFirst + place;
-    ivec2 inside = clamp(local, ivec2(0), view.areaExtent - 1);
-    float z = viewZ(inside + view.areaOffset);
-    bool receives = local == inside && materialAt(inside + view.areaOffset) != 0u && isValidZ(z);
-    depths[(place.y + 1) * pitch + place.x + 1] = receives ? -z : 0.0;
+    ivec2 pixel = imagePixel(tileFirst + place);
+    float z = viewZ(pixel);
+    uint material = isInExtent(tileFirst + place) ? materialAt(pixel) : 0u;
+    depths[depthPlace(place)] = receivingDepth(material, z);
 }
 
-// What a pixel is before its neighbours are known.
-struct Pixel {
-    vec3 light;
-    uint material;
-    bool gives;
+// Depths beside a 2x2 block: left and right of its rows, above and below its columns.
+struct Sides {
+    vec2 left, right, above, below;
 };
 
-// Not finite light is no light; not finite depth is no surface. Either drops the pixel, so that nothing near is taken for
-// smooth. `place`: in `depths`, which is filled.
-Pixel decodePixel(Fetched fetched, int i, ivec2 first, int place, inout bool receives, inout bool dropped) {
-    ivec2 pixel = pixelOf(first, i);
-    uint material = materialOfId(fetched.id[i]);
-    material = all(lessThan(first + ivec2(i & 1, i >> 1), view.areaExtent)) ? material : 0u;
-    float z = viewZ(pixel, fetched.depth[i]);
-    vec3 light = fetched.light[i] * albedoBefore(pixel, material);
-    bool isOnSurface = material != 0u && isValidZ(z);
-    depths[place] = isOnSurface ? -z : 0.0;
-    receives = receives || isOnSurface;
-    bool gives = isOnSurface && isFinite(light);
-    dropped = dropped || (material != 0u && !gives);
-    return Pixel(min(light, vec3(maxHalf)), material, gives);
+Sides sidesOf(int place) {
+    return Sides(vec2(depths[place - 1], depths[place + pitch - 1]), vec2(depths[place + 2], depths[place + pitch + 2]),
+                 vec2(depths[place - pitch], depths[place - pitch + 1]),
+                 vec2(depths[place + 2 * pitch], depths[place + 2 * pitch + 1]));
 }
 
-RawTexel toTexel(Pixel pixel, int place) {
-    if (!pixel.gives) {
-        RawTexel empty = emptyTexel();
-        empty.material = pixel.material;
-        return empty;
+// A pair of pixels in a row or column, and the pixels before and after it.
+float longestStep(float before, float first, float second, float after) {
+    return max(max(abs(first - before), abs(second - first)), abs(after - second));
+}
+
+// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
+bool isPlain(Block block, Sides sides, float width) {
+    vec2 leastSides = min(min(sides.left, sides.right), min(sides.above, sides.below));
+    float leastOwn = min(min(block.depth[0], block.depth[1]), min(block.depth[2], block.depth[3]));
+    float longest = max(max(longestStep(sides.left.x, block.depth[0], block.depth[1], sides.right.x),
+                            longestStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
+                        max(longestStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
+                            longestStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
+    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= bankPlainStep * width && !separateMaterials;
+}
+
+// Areas of a plain block's pixels: as areaOf, where every depth goes on to both sides.
+vec4 plainAreas(Block block, Sides sides, float width) {
+    vec4 stepX = vec4(block.depth[1] - sides.left.x, sides.right.x - block.depth[0], block.depth[3] - sides.left.y,
+                      sides.right.y - block.depth[2]);
+    vec4 stepY = vec4(block.depth[2] - sides.above.x, block.depth[3] - sides.above.y, sides.below.x - block.depth[0],
+                      sides.below.y - block.depth[1]);
+    return sqrt(1.0 + (stepX * stepX + stepY * stepY) * (0.25 / (width * width)));
+}
+
+vec4 anyAreas(Block block, Sides sides) {
+    return vec4(areaOf(block.depth[0], vec4(sides.left.x, block.depth[1], sides.above.x, block.depth[2])),
+                areaOf(block.depth[1], vec4(block.depth[0], sides.right.x, sides.above.y, block.depth[3])),
+                areaOf(block.depth[2], vec4(sides.left.y, block.depth[3], block.depth[0], sides.below.x)),
+                areaOf(block.depth[3], vec4(block.depth[2], sides.right.y, block.depth[1], sides.below.y)));
+}
+
+// A texel of level 1 with what the combination wants to know of its pixels.
+struct Reduced {
+    RawTexel texel;
+    vec2 slope; // depth steps from pixel to pixel, in pixel widths
+    vec4 areas;
+};
+
+Reduced reducePlain(Block block, Sides sides, float width) {
+    vec4 areas = plainAreas(block, sides, width);
+    vec3 light = areas.x * block.light[0] + areas.y * block.light[1] + areas.z * block.light[2] + areas.w * block.light[3];
+    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+    vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
+    RawTexel texel = RawTexel(0.25 * light, dot(areas, vec4(0.25)), 1.0, dot(depth, vec4(0.25)), block.material[0], false);
+    return Reduced(texel, steps * (0.5 / width), areas);
+}
+
+// Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
+Reduced reduceAny(Block block, Sides sides) {
+    Reduced result;
+    result.areas = anyAreas(block, sides);
+    RawTexel pixels[4];
+    bool dropped = false;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        bool gives = block.depth[i] > 0.0 && isFinite(block.light[i]);
+        dropped = dropped || (block.material[i] != 0u && !gives);
+        pixels[i] = emptyTexel();
+        result.areas[i] = gives ? result.areas[i] : 1.0;
+        if (gives) {
+            vec3 light = result.areas[i] * block.light[i];
+            pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
+        }
     }
-    float depth = depths[place];
-    float area = areaOf(depth, vec4(depths[place - 1], depths[place + 1], depths[place - pitch], depths[place + pitch]));
-    return RawTexel(min(area * pixel.light, vec3(maxHalf)), area, 1.0, depth, pixel.material, false);
-}
-
-// Depth steps from pixel to pixel inside a 2x2 block, in pixel widths.
-vec2 blockSlope(RawTexel pixels[4], bvec4 kept, float depth) {
+    bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
+    result.texel = mergeTexels(pixels, kept);
+    result.texel.dropped = result.texel.dropped || dropped;
     vec2 steps = vec2(0.0);
     vec2 pairs = vec2(0.0);
     [[unroll]] for (int i = 0; i < 2; ++i) {
@@ -94,16 +161,29 @@ vec2 blockSlope(RawTexel pixels[4], bvec4 kept, float depth) {
                       pairY ? pixels[i + 2].depth - pixels[i].depth : 0.0);
         pairs += vec2(pairX, pairY);
     }
-    return steps / (max(pairs, vec2(1.0)) * texelWidth(0, depth));
+    result.slope = steps / (max(pairs, vec2(1.0)) * texelWidth(0, result.texel.depth));
+    return result;
 }
 
-// A texel of level 1, and its entry of `quads`.
-RawTexel reducePixels(RawTexel pixels[4], out Quad quad) {
-    bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
-    RawTexel texel = mergeTexels(pixels, kept);
-    quad = Quad(texel.depth, weightsBeside(blockSlope(pixels, kept, texel.depth)),
-                uvec2(pixels[0].material | pixels[1].material << 16, pixels[2].material | pixels[3].material << 16));
-    return texel;
+Reduced reduceBlock(Block block, ivec2 first, int place) {
+    if (hasFlag(flagAlbedo)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            block.light[i] *= albedoBefore(imagePixel(first + offsetOf(i)), block.material[i]);
+        }
+    }
+    Sides sides = sidesOf(place);
+    float width = texelWidth(0, block.depth[0]);
+    Reduced reduced;
+    bool plain = isPlain(block, sides, width);
+    if (plain) {
+        reduced = reducePlain(block, sides, width);
+        plain = isFinite(reduced.texel.light);
+    }
+    if (!plain) {
+        reduced = reduceAny(block, sides);
+        atomicOr(notPlain, 1u);
+    }
+    return reduced;
 }
 
 void reduceLevel(int level, ivec2 tile, int thread) {
@@ -123,8 +203,64 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     rawTexels[texelIndex(level, tile * width + texel)] = packed;
 }
 
-// The levels above the first of a tile without subsurface pixels.
-void emptyLevels(ivec2 tile, int thread) {
+// Sums of a plain tile's texels, which all are full.
+struct PlainSum {
+    vec4 lightAndArea;
+    float depth;
+};
+
+void addTexel(inout PlainSum sum, uvec4 words) {
+    sum.lightAndArea += vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+    sum.depth += uintBitsToFloat(words.z);
+}
+
+uvec4 storeMean(int level, ivec2 texel, PlainSum sum, float count, uint lastWord) {
+    vec4 mean = sum.lightAndArea / count;
+    uvec4 words = uvec4(packHalf2x16(mean.xy), packHalf2x16(mean.zw), floatBitsToUint(sum.depth / count), lastWord);
+    rawTexels[texelIndex(level, texel)] = words;
+    return words;
+}
+
+// Two levels of a plain tile at once, `level` by the first threads and the next by others: means of 2x2 and 4x4 texels of
+// the level before.
+void reducePlainLevels(int level, ivec2 tile, int thread) {
+    bool fine = level == 2;
+    int width = tileSize >> level;
+    int fineCount = width * width;
+    int own = thread < fineCount ? thread : thread - max(fineCount, 32); // the others' first thread is in another subgroup
+    int next = thread < fineCount ? 0 : 1;
+    int ownWidth = width >> next;
+    if (own < 0 || own >= ownWidth * ownWidth) {
+        return;
+    }
+    ivec2 texel = ivec2(own % ownWidth, own / ownWidth);
+    int span = 2 << next;
+    PlainSum sum = PlainSum(vec4(0.0), 0.0);
+    uint lastWord = 0u;
+    for (int y = 0; y < span; ++y) {
+        for (int x = 0; x < span; ++x) {
+            ivec2 from = texel * span + ivec2(x, y);
+            uvec4 words = fine ? texels[from.y * side + from.x] : plainTexels[64 + from.y * 4 + from.x];
+            addTexel(sum, words);
+            lastWord = words.w;
+        }
+    }
+    uvec4 words = storeMean(level + next, tile * ownWidth + texel, sum, float(span * span), lastWord);
+    if (fine) {
+        plainTexels[64 * next + own] = words;
+    }
+}
+
+// A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters.
+void emptyTile(Block block, ivec2 tile, ivec2 texel, ivec2 first, int thread) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        if (isInExtent(first + offsetOf(i))) {
+            writeUnscattered(first + offsetOf(i) + view.areaOffset, block.light[i]);
+        }
+    }
+    int index = texelIndex(1, tile * side + texel);
+    rawTexels[index] = uvec4(0u);
+    quads[index] = uvec2(0u);
     for (int level = 2; level <= rawLevels; ++level) {
         int width = tileSize >> level;
         if (thread < width * width) {
@@ -133,12 +269,11 @@ void emptyLevels(ivec2 tile, int thread) {
     }
 }
 
-void copyTile(ivec2 tile, int thread) {
-    for (int i = thread; i < tileSize * tileSize; i += threads) {
-        ivec2 local = tile * tileSize + ivec2(i % tileSize, i / tileSize);
-        if (all(lessThan(local, view.areaExtent))) {
-            writeUnscattered(local + view.areaOffset);
-        }
+void beginTile(ivec2 tile) {
+    tileEntries[tile.y * tileCount().x + tile.x] = occupied;
+    if (tile == ivec2(0)) {
+        dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
+        dispatches[1] = BankDispatch(0u, 1u, 1u, 0u);
     }
 }
 
@@ -146,53 +281,50 @@ void main() {
     int thread = int(gl_LocalInvocationIndex);
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
     ivec2 texel = ivec2(gl_LocalInvocationID.xy);
-    ivec2 firstPixel = tile * tileSize + 2 * texel;
+    ivec2 first = tile * tileSize + 2 * texel;
     if (thread == 0) {
         occupied = 0u;
+        notPlain = 0u;
     }
+    barrier();
     if (thread < 4 * tileSize + 4) {
         loadRing(tile * tileSize, thread);
     }
-    Fetched fetched = fetchPixels(firstPixel);
+    Block block = fetchBlock(first);
+    int place = depthPlace(2 * texel);
     bool receives = false;
-    bool dropped = false;
-    int place = (2 * texel.y + 1) * pitch + 2 * texel.x + 1;
-    Pixel decoded[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        decoded[i] = decodePixel(fetched, i, firstPixel, place + (i & 1) + (i >> 1) * pitch, receives, dropped);
+        depths[place + (i & 1) + (i >> 1) * pitch] = block.depth[i];
+        receives = receives || block.depth[i] > 0.0;
     }
-    barrier();
-    RawTexel pixels[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        pixels[i] = toTexel(decoded[i], place + (i & 1) + (i >> 1) * pitch);
-    }
-    Quad quad;
-    RawTexel reduced = reducePixels(pixels, quad);
-    reduced.dropped = reduced.dropped || dropped;
-    uvec4 packed = packRaw(reduced);
     if (receives) {
         atomicOr(occupied, 1u);
     }
+    barrier();
+    if (thread == 0) {
+        beginTile(tile);
+    }
+    if (occupied == 0u) {
+        emptyTile(block, tile, texel, first, thread);
+        return;
+    }
+    Reduced reduced = reduceBlock(block, first, place);
+    uvec4 packed = packRaw(reduced.texel);
     texels[thread] = packed;
     int index = texelIndex(1, tile * side + texel);
     rawTexels[index] = packed;
-    storeQuad(index, quad);
-    quadAreas[index] = packAreas(max(vec4(pixels[0].area, pixels[1].area, pixels[2].area, pixels[3].area), 1.0));
+    storeQuad(index, Quad(reduced.texel.depth, weightsBeside(reduced.slope),
+                          uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16)));
+    quadAreas[index] = packAreas(reduced.areas);
     barrier();
-    if (occupied != 0u) {
-        for (int level = 2; level <= rawLevels; ++level) {
-            reduceLevel(level, tile, thread);
-            barrier();
-        }
-    } else {
-        emptyLevels(tile, thread);
-        copyTile(tile, thread);
+    if (notPlain == 0u) {
+        reducePlainLevels(2, tile, thread);
+        barrier();
+        reducePlainLevels(4, tile, thread);
+        return;
     }
-    if (thread == 0) {
-        tileEntries[tile.y * tileCount().x + tile.x] = occupied;
-        if (tile == ivec2(0)) {
-            dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
-            dispatches[1] = BankDispatch(0u, 1u, 1u, 0u);
-        }
+    for (int level = 2; level <= rawLevels; ++level) {
+        reduceLevel(level, tile, thread);
+        barrier();
     }
 }
