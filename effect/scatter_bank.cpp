@@ -29,18 +29,25 @@ static_assert(bankTableWords == 1 + bankBinWords * (constants::bankBinCount - 1)
 
 constexpr std::size_t tableBytes = sizeof(uvec4) * bankTableWords;
 
-constexpr std::uint32_t tileSize = 32;          // px, bank.glsl
-constexpr std::uint32_t blurSide = 16;          // texels, bank_blur.comp
-constexpr std::uint32_t texelsPerTile = 341; // levels 1 … 5
+constexpr std::uint32_t tileSize = 16;    // px, bank.glsl
+constexpr std::uint32_t cellSize = 32;    // px, 2x2 tiles, of which the pyramid is made
+constexpr std::uint32_t blurSide = 16;    // texels, bank_blur.comp
+constexpr std::uint32_t cellTexels = 341; // levels 1 … 5
 
-VkExtent2D tileCount(VkExtent2D area) {
-    return {(area.width + tileSize - 1) / tileSize, (area.height + tileSize - 1) / tileSize};
+VkExtent2D cellCount(VkExtent2D area) {
+    return {(area.width + cellSize - 1) / cellSize, (area.height + cellSize - 1) / cellSize};
 }
 
 VkExtent2D levelExtent(VkExtent2D area, int level) {
-    const VkExtent2D tiles = tileCount(area);
-    return level < bankLevels ? VkExtent2D{tiles.width * (tileSize >> level), tiles.height * (tileSize >> level)}
-                              : VkExtent2D{(tiles.width + 1) / 2, (tiles.height + 1) / 2};
+    const VkExtent2D cells = cellCount(area);
+    return level < bankLevels ? VkExtent2D{cells.width * (cellSize >> level), cells.height * (cellSize >> level)}
+                              : VkExtent2D{(cells.width + 1) / 2, (cells.height + 1) / 2};
+}
+
+// One workgroup a tile of whole cells.
+VkExtent3D reduceGrid(VkExtent2D area) {
+    const VkExtent2D cells = cellCount(area);
+    return {cells.width * (cellSize / tileSize), cells.height * (cellSize / tileSize), 1};
 }
 
 // Blocks of 16x16 texels that cover a level.
@@ -59,9 +66,9 @@ VkExtent3D blurGrid(VkExtent2D area) {
 
 // Texels of the whole pyramid.
 VkDeviceSize texelCount(VkExtent2D maxExtent) {
-    const VkExtent2D tiles = tileCount(maxExtent);
+    const VkExtent2D cells = cellCount(maxExtent);
     const VkExtent2D coarsest = levelExtent(maxExtent, bankLevels);
-    return VkDeviceSize{texelsPerTile} * tiles.width * tiles.height + coarsest.width * coarsest.height;
+    return VkDeviceSize{cellTexels} * cells.width * cells.height + coarsest.width * coarsest.height;
 }
 
 // A kernel's weights at a bin and the next: three halves each.
@@ -96,7 +103,7 @@ constexpr Pass passes[] = {
      .file = "bank_reduce",
      .spirv = bank_reduce_spv,
      .writes = raw | quads | areas | tiles,
-     .grid = nacre::effect::tiles<tileSize, tileSize>,
+     .grid = reduceGrid,
      .asksMaterials = true},
     {.name = "nacre bank blur",
      .file = "bank_blur",
@@ -140,10 +147,10 @@ VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
     return bankQuadBytes(maxExtent) / sizeof(uvec2) * sizeof(std::uint32_t);
 }
 
-// The dispatches, then per tile its bits and, on either list, the places of its two regions.
+// The dispatches, then an entry for every tile and, on either list, one for every region; a cell has four and two.
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent) {
-    const VkExtent2D extent = tileCount(maxExtent);
-    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 5 * extent.width * extent.height;
+    const VkExtent2D cells = cellCount(maxExtent);
+    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 8 * cells.width * cells.height;
 }
 
 // The levels lie one after the other, finest first; their blocks are blurred coarsest first.

@@ -25,12 +25,12 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
-    // Per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions, two a tile.
+    // Per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions.
     uint tileEntries[];
 };
 
-const int tileSize = 32; // px; level l has tileSize / 2^l texels a side in each tile
-const int rawLevels = 5; // level 6 is reduced by the blur
+const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a side in each tile
+const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
 const uint massBits = 0x7fffu; // of a raw texel's last word; 0 = empty
 const uint fullMass = 0x3c00u;
@@ -116,13 +116,24 @@ uint pixelMaterial(uvec2 materials, ivec2 local) {
     return (local.x & 1) == 0 ? words & 0xffffu : words >> 16;
 }
 
-// Levels are made of whole tiles, level 6 of half ones; what lies outside the image is empty.
+// Levels are made of 2x2 whole tiles, level 6 of half of that; what lies outside the image is empty.
 ivec2 levelExtent(int level) {
     return parameters.bankLevels[level].yz;
 }
 
-ivec2 tileCount() {
-    return levelExtent(rawLevels);
+int tileIndex(ivec2 tile) {
+    return tile.y * levelExtent(rawLevels).x + tile.x;
+}
+
+// Regions of 32x16 px, two tiles side by side, which pass C combines.
+ivec2 regionCount() {
+    return levelExtent(rawLevels) / ivec2(2, 1);
+}
+
+// Where the list of smooth (0) or edge regions (1) begins in tileEntries.
+int regionList(int kind) {
+    ivec2 regions = regionCount();
+    return (2 + kind) * regions.x * regions.y;
 }
 
 int texelIndex(int level, ivec2 texel) {

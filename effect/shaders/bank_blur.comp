@@ -1,5 +1,5 @@
 // Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, two a thread, all
-// levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the tiles that hold
+// levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the regions that hold
 // subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -130,15 +130,29 @@ void storeOwn(Block block, ivec2 texel, uvec4 words) {
     }
 }
 
-// Level 6 is reduced here, from the level pass A ends with.
-void loadCoarsestBlock(Block block, int thread) {
+// A texel of a level that pass A leaves to this one.
+RawTexel reducedTexel(int level, ivec2 texel) {
+    RawTexel children[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        children[i] = unpackRaw(rawWords(level - 1, 2 * texel + ivec2(i & 1, i >> 1)));
+    }
+    return reduceTexels(children, level);
+}
+
+void loadCoarseBlock(Block block, int thread) {
     for (int index = thread; index < pitch * pitch; index += threads) {
         ivec2 texel = placeOf(block, index);
-        RawTexel children[4];
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            children[i] = unpackRaw(rawWords(rawLevels, 2 * texel + ivec2(i & 1, i >> 1)));
+        RawTexel result;
+        if (block.level == rawLevels + 1) {
+            result = reducedTexel(block.level, texel);
+        } else {
+            RawTexel children[4];
+            [[unroll]] for (int i = 0; i < 4; ++i) {
+                children[i] = reducedTexel(block.level - 1, 2 * texel + ivec2(i & 1, i >> 1));
+            }
+            result = reduceTexels(children, block.level);
         }
-        uvec4 words = packRaw(reduceTexels(children, block.level));
+        uvec4 words = packRaw(result);
         storeShared(index, words);
         storeOwn(block, texel, words);
         noteRoughness(roughnessOf(words, index));
@@ -276,17 +290,19 @@ void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     }
 }
 
-// Puts a tile's half on the list of the pipeline that combines it, and makes that pipeline's dispatch cover the list.
-void listRegion(ivec2 tile, uint region) {
-    ivec2 tiles = tileCount();
-    if (tileEntries[tile.y * tiles.x + tile.x] == 0u) {
+// Puts a region on the list of the pipeline that combines it, and makes that pipeline's dispatch cover the list. `row`: 0
+// or 1, the block's upper or lower one.
+void listRegion(ivec2 block, int row) {
+    ivec2 region = ivec2(block.x, 2 * block.y + row);
+    int tile = tileIndex(region * ivec2(2, 1));
+    if ((tileEntries[tile] | tileEntries[tile + 1]) == 0u) {
         return;
     }
     // Where materials are separate, pixels are combined tap by tap.
-    bool isEdge = separateMaterials || (rough & (region == 0u ? roughUpper : roughLower)) != 0u;
-    uint kind = isEdge ? 1u : 0u;
+    bool isEdge = separateMaterials || (rough & (row == 0 ? roughUpper : roughLower)) != 0u;
+    int kind = isEdge ? 1 : 0;
     uint index = atomicAdd(dispatches[kind].count, 1u);
-    tileEntries[tiles.x * tiles.y * (1 + 2 * int(kind)) + int(index)] = 2u * uint(tile.y * tiles.x + tile.x) + region;
+    tileEntries[regionList(kind) + int(index)] = uint(region.y * regionCount().x + region.x);
     atomicMax(dispatches[kind].x, min(index + 1u, bankDispatchWidth));
     atomicMax(dispatches[kind].y, index / bankDispatchWidth + 1u);
 }
@@ -304,7 +320,7 @@ void main() {
     if (block.level <= rawLevels) {
         loadBlock(block, thread);
     } else {
-        loadCoarsestBlock(block, thread);
+        loadCoarseBlock(block, thread);
     }
     barrier();
     if ((rough & anything) == 0u && block.level == 1) { // no pixel will read these
@@ -329,6 +345,6 @@ void main() {
         storeBlurred(block, local + ivec2(0, 1), lower);
     }
     if (thread < 2 && block.level == 1) {
-        listRegion(block.first / side, uint(thread));
+        listRegion(block.first / side, thread);
     }
 }

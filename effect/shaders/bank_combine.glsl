@@ -1,5 +1,5 @@
 // What the two pipelines of pass C of `bank` share: loading a region, the material's mixture, storing the result.
-// 32x16 px a workgroup, two workgroups a tile, a 2x2 quad a thread. docs/scatter.md. Needs the constant isEdge: whether
+// a region of 32x16 px a workgroup, a 2x2 quad a thread. docs/scatter.md. Needs the constant isEdge: whether
 // depths of pixels and surfaces of texels are loaded, too.
 #include "bank.glsl"
 
@@ -49,14 +49,13 @@ const Sum noSum = Sum(vec2(0.0), vec2(0.0), vec2(0.0));
 
 // The region that this workgroup combines, in px of the render area; false where there is none.
 bool findRegion(int kind, out ivec2 region) {
-    ivec2 tiles = tileCount();
     uint entry = gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x;
     if (gl_NumWorkGroups.y > 1u && entry >= dispatches[kind].count) { // the last row is not full
         return false;
     }
-    int index = int(tileEntries[tiles.x * tiles.y * (1 + 2 * kind) + int(entry)]);
-    int tile = index >> 1;
-    region = ivec2(tile % tiles.x, tile / tiles.x) * tileSize + ivec2(0, (index & 1) * regionSize.y);
+    int index = int(tileEntries[regionList(kind) + int(entry)]);
+    int width = regionCount().x;
+    region = ivec2(index % width, index / width) * regionSize;
     return true;
 }
 

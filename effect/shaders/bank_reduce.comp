@@ -1,17 +1,17 @@
-// Pass A of `bank`: levels 1 to 5 of the pyramid, 32x32 px a workgroup, 2x2 px a thread; notes which tiles hold
+// Pass A of `bank`: levels 1 to 4 of the pyramid, a tile of 16x16 px a workgroup, 2x2 px a thread; notes which tiles hold
 // subsurface pixels, and copies the tiles that hold none. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
-const int side = 16; // texels of level 1
+const int side = tileSize / 2; // texels of level 1
 
 // Level 1; where the tile is not plain, each coarser level then stands at its first child's place.
 shared uvec4 texels[side * side];
-shared uvec4 plainTexels[80]; // levels 2 and 3 of a plain tile
+shared uvec4 plainTexels[4]; // level 3 of a plain tile
 // Of the tile's pixels and one around, mm; 0 where none receives light.
 const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
@@ -65,9 +65,11 @@ Block fetchBlock(ivec2 first) {
     return block;
 }
 
-// The tile's ring of pixels around: one a thread.
+// The pixels around the tile, without its corners: one a thread.
 void loadRing(ivec2 tileFirst, int thread) {
-    ivec2 place = ringPosition(min(thread, 4 * tileSize + 3), ivec2(tileSize));
+    int along = thread % tileSize;
+    int beyond = (thread / tileSize & 1) == 0 ? -1 : tileSize;
+    ivec2 place = thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
     ivec2 pixel = imagePixel(tileFirst + place);
     float z = viewZ(pixel);
     uint material = isInExtent(tileFirst + place) ? materialAt(pixel) : 0u;
@@ -221,33 +223,31 @@ uvec4 storeMean(int level, ivec2 texel, PlainSum sum, float count, uint lastWord
     return words;
 }
 
-// Two levels of a plain tile at once, `level` by the first threads and the next by others: means of 2x2 and 4x4 texels of
-// the level before.
-void reducePlainLevels(int level, ivec2 tile, int thread) {
-    bool fine = level == 2;
-    int width = tileSize >> level;
-    int fineCount = width * width;
-    int own = thread < fineCount ? thread : thread - max(fineCount, 32); // the others' first thread is in another subgroup
-    int next = thread < fineCount ? 0 : 1;
-    int ownWidth = width >> next;
-    if (own < 0 || own >= ownWidth * ownWidth) {
-        return;
-    }
-    ivec2 texel = ivec2(own % ownWidth, own / ownWidth);
-    int span = 2 << next;
+PlainSum sumTexels(ivec2 first, int span) {
     PlainSum sum = PlainSum(vec4(0.0), 0.0);
-    uint lastWord = 0u;
-    for (int y = 0; y < span; ++y) {
-        for (int x = 0; x < span; ++x) {
-            ivec2 from = texel * span + ivec2(x, y);
-            uvec4 words = fine ? texels[from.y * side + from.x] : plainTexels[64 + from.y * 4 + from.x];
-            addTexel(sum, words);
-            lastWord = words.w;
-        }
+    for (int i = 0; i < span * span; ++i) {
+        addTexel(sum, texels[(first.y + i / span) * side + first.x + i % span]);
     }
-    uvec4 words = storeMean(level + next, tile * ownWidth + texel, sum, float(span * span), lastWord);
-    if (fine) {
-        plainTexels[64 * next + own] = words;
+    return sum;
+}
+
+// The coarser levels of a plain tile: levels 2 and 3 at once, by different subgroups, both from level 1.
+void reducePlainTile(ivec2 tile, int thread) {
+    uint lastWord = texels[0].w; // full, and a material of the surface's
+    if (thread < 16) {
+        ivec2 texel = ivec2(thread & 3, thread >> 2);
+        storeMean(2, 4 * tile + texel, sumTexels(2 * texel, 2), 4.0, lastWord);
+    } else if (thread >= 32 && thread < 36) {
+        ivec2 texel = ivec2(thread & 1, thread >> 1 & 1);
+        plainTexels[thread - 32] = storeMean(3, 2 * tile + texel, sumTexels(4 * texel, 4), 16.0, lastWord);
+    }
+    barrier();
+    if (thread == 0) {
+        PlainSum sum = PlainSum(vec4(0.0), 0.0);
+        for (int i = 0; i < 4; ++i) {
+            addTexel(sum, plainTexels[i]);
+        }
+        storeMean(4, tile, sum, 4.0, lastWord);
     }
 }
 
@@ -270,7 +270,7 @@ void emptyTile(Block block, ivec2 tile, ivec2 texel, ivec2 first, int thread) {
 }
 
 void beginTile(ivec2 tile) {
-    tileEntries[tile.y * tileCount().x + tile.x] = occupied;
+    tileEntries[tileIndex(tile)] = occupied;
     if (tile == ivec2(0)) {
         dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
         dispatches[1] = BankDispatch(0u, 1u, 1u, 0u);
@@ -287,9 +287,7 @@ void main() {
         notPlain = 0u;
     }
     barrier();
-    if (thread < 4 * tileSize + 4) {
-        loadRing(tile * tileSize, thread);
-    }
+    loadRing(tile * tileSize, thread);
     Block block = fetchBlock(first);
     int place = depthPlace(2 * texel);
     bool receives = false;
@@ -318,9 +316,7 @@ void main() {
     quadAreas[index] = packAreas(reduced.areas);
     barrier();
     if (notPlain == 0u) {
-        reducePlainLevels(2, tile, thread);
-        barrier();
-        reducePlainLevels(4, tile, thread);
+        reducePlainTile(tile, thread);
         return;
     }
     for (int level = 2; level <= rawLevels; ++level) {
