@@ -50,16 +50,18 @@ VkExtent3D reduceGrid(VkExtent2D area) {
     return {cells.width * (cellSize / tileSize), cells.height * (cellSize / tileSize), 1};
 }
 
-// Blocks of 16x16 texels that cover a level.
-std::uint32_t blockCount(VkExtent2D level) {
-    return (level.width + blurSide - 1) / blurSide * ((level.height + blurSide - 1) / blurSide);
+// Workgroups that blur a level.
+std::uint32_t blockCount(VkExtent2D area, int level) {
+    const VkExtent2D extent = levelExtent(area, level);
+    const std::uint32_t rows = level < constants::bankShortBlocks ? blurSide : blurSide / 2;
+    return (extent.width + blurSide - 1) / blurSide * ((extent.height + rows - 1) / rows);
 }
 
 // One workgroup per block of any level, in rows of at most bankDispatchWidth.
 VkExtent3D blurGrid(VkExtent2D area) {
     std::uint32_t count = 0;
     for (int level = 1; level <= bankLevels; ++level) {
-        count += blockCount(levelExtent(area, level));
+        count += blockCount(area, level);
     }
     return {std::min<std::uint32_t>(count, bankDispatchWidth), (count + bankDispatchWidth - 1) / bankDispatchWidth, 1};
 }
@@ -166,7 +168,7 @@ void setBankLevels(ScatterParameters& parameters, VkExtent2D area) {
     std::int32_t blocks = 0;
     for (int level = bankLevels; level >= 1; --level) {
         parameters.bankLevels[level].w = blocks;
-        blocks += static_cast<std::int32_t>(blockCount(levelExtent(area, level)));
+        blocks += static_cast<std::int32_t>(blockCount(area, level));
     }
 }
 

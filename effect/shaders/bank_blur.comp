@@ -1,5 +1,5 @@
-// Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, two a thread, all
-// levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the regions that hold
+// Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, two a thread, or, of
+// the coarse levels, 16x8; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the regions that hold
 // subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -22,9 +22,14 @@ shared uint rough; // bits of roughness
 struct Block {
     int level;
     ivec2 first; // texel
+    int rows;    // 16 or, a texel a thread, 8
 };
 
-// The levels' blocks of 16x16 texels, counted from the coarsest level on.
+int countOf(Block block) {
+    return pitch * (block.rows + 2 * halo);
+}
+
+// The levels' blocks, counted from the coarsest level on.
 Block findBlock(int group) {
     int level = 1;
     [[unroll]] for (int finer = 1; finer < bankLevels; ++finer) {
@@ -34,7 +39,8 @@ Block findBlock(int group) {
     int index = group - place.w;
     int width = (place.y + side - 1) / side;
     int row = int((float(index) + 0.5) / float(width));
-    return Block(level, ivec2(index - row * width, row) * side);
+    int rows = level < bankShortBlocks ? side : side / 2;
+    return Block(level, ivec2(index - row * width, row) * ivec2(side, rows), rows);
 }
 
 // Whether the texel at `neighbor` is a surface further from `depth` than a smooth one's neighbour would be.
@@ -66,15 +72,15 @@ bool isStepBetween(float a, float b, float limit) {
 }
 
 // … and of a 2x2 block of texels, between them and beside them, right and below.
-uint roughnessBetween(int level, ivec2 first) {
+uint roughnessBetween(Block from, ivec2 first) {
     float block[3][3];
     [[unroll]] for (int y = 0; y < 3; ++y) {
         [[unroll]] for (int x = 0; x < 3; ++x) {
-            ivec2 place = min(first + ivec2(x, y), pitch - 1);
+            ivec2 place = min(first + ivec2(x, y), ivec2(pitch, from.rows + 2 * halo) - 1);
             block[y][x] = depths[place.y * pitch + place.x];
         }
     }
-    float limit = bankSmoothDepth * texelWidth(level, block[0][0]);
+    float limit = bankSmoothDepth * texelWidth(from.level, block[0][0]);
     uint result = 0u;
     [[unroll]] for (int y = 0; y < 2; ++y) {
         bool steps = false;
@@ -109,12 +115,14 @@ ivec2 placeOf(Block block, int index) {
 void loadBlock(Block block, int thread) {
     uvec4 words[blockSteps];
     [[unroll]] for (int i = 0; i < blockSteps; ++i) {
-        words[i] = rawWords(block.level, placeOf(block, thread + i * threads));
+        if (i * threads < countOf(block)) {
+            words[i] = rawWords(block.level, placeOf(block, thread + i * threads));
+        }
     }
     uint roughness = 0u;
     [[unroll]] for (int i = 0; i < blockSteps; ++i) {
         int index = thread + i * threads;
-        if (index < pitch * pitch) {
+        if (index < countOf(block)) {
             storeShared(index, words[i]);
             roughness |= roughnessOf(words[i], index);
         }
@@ -124,7 +132,7 @@ void loadBlock(Block block, int thread) {
 
 // Of the texels around a block only those inside it are this workgroup's to store.
 void storeOwn(Block block, ivec2 texel, uvec4 words) {
-    ivec2 last = min(block.first + side, levelExtent(block.level));
+    ivec2 last = min(block.first + ivec2(side, block.rows), levelExtent(block.level));
     if (all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last))) {
         rawTexels[texelIndex(block.level, texel)] = words;
     }
@@ -139,20 +147,23 @@ RawTexel reducedTexel(int level, ivec2 texel) {
     return reduceTexels(children, level);
 }
 
+RawTexel coarseTexel(int level, ivec2 texel) {
+    if (level == rawLevels + 1) {
+        return reducedTexel(level, texel);
+    }
+    RawTexel children[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        children[i] = reducedTexel(level - 1, 2 * texel + ivec2(i & 1, i >> 1));
+    }
+    return reduceTexels(children, level);
+}
+
 void loadCoarseBlock(Block block, int thread) {
-    for (int index = thread; index < pitch * pitch; index += threads) {
+    ivec2 extent = levelExtent(block.level);
+    for (int index = thread; index < countOf(block); index += threads) {
         ivec2 texel = placeOf(block, index);
-        RawTexel result;
-        if (block.level == rawLevels + 1) {
-            result = reducedTexel(block.level, texel);
-        } else {
-            RawTexel children[4];
-            [[unroll]] for (int i = 0; i < 4; ++i) {
-                children[i] = reducedTexel(block.level - 1, 2 * texel + ivec2(i & 1, i >> 1));
-            }
-            result = reduceTexels(children, block.level);
-        }
-        uvec4 words = packRaw(result);
+        bool inside = texel == clamp(texel, ivec2(0), extent - 1);
+        uvec4 words = inside ? packRaw(coarseTexel(block.level, texel)) : uvec4(0u);
         storeShared(index, words);
         storeOwn(block, texel, words);
         noteRoughness(roughnessOf(words, index));
@@ -241,6 +252,13 @@ PlainCenter plainCenter(int level, int index) {
     return PlainCenter(depths[index], 0.25 / (bankBlurDepthVariance * width * width));
 }
 
+// Fourth roots of the kernel's weights 1, 4, 6, 4, 1 sixteenths.
+const float roots[5] = float[](0.5, 0.70710678, 0.78254229, 0.70710678, 0.5);
+
+vec4 lightAndAreaAt(int index) {
+    return vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
+}
+
 // The same where every tap is full and no step is near: nothing is missing, nothing left out. `root` is the kernel's
 // fourth root, taken into the fourth power of the depth weight.
 void addPlainTap(inout vec4 sum, vec4 lightAndArea, float depth, PlainCenter center, float root) {
@@ -254,9 +272,20 @@ BlurredTexel plainTexel(vec4 sum, int index) {
     return BlurredTexel(sum.rgb / sum.w, 1.0, depths[index], massesAndMaterials[index] >> 16, true, false);
 }
 
+BlurredTexel blurPlain(int level, int center) {
+    PlainCenter from = plainCenter(level, center);
+    vec4 sum = vec4(0.0);
+    [[dont_unroll]] for (int y = 0; y < 5; ++y) {
+        [[unroll]] for (int x = 0; x < 5; ++x) {
+            int index = center + x - halo + (y - halo) * pitch;
+            addPlainTap(sum, lightAndAreaAt(index), depths[index], from, roots[x] * roots[y]);
+        }
+    }
+    return plainTexel(sum, center);
+}
+
 // Blurs a texel and the one below it, which have four of five rows of taps in common.
 void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
-    const float roots[5] = float[](0.5, 0.70710678, 0.78254229, 0.70710678, 0.5); // of 1, 4, 6, 4, 1 sixteenths
     PlainCenter upperCenter = plainCenter(level, center);
     PlainCenter lowerCenter = plainCenter(level, center + pitch);
     vec4 upperSum = vec4(0.0);
@@ -264,7 +293,7 @@ void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTex
     [[unroll]] for (int y = 0; y < 6; ++y) {
         [[unroll]] for (int x = 0; x < 5; ++x) {
             int index = center + x - halo + (y - halo) * pitch;
-            vec4 lightAndArea = vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
+            vec4 lightAndArea = lightAndAreaAt(index);
             if (y < 5) {
                 addPlainTap(upperSum, lightAndArea, depths[index], upperCenter, roots[x] * roots[min(y, 4)]);
             }
@@ -276,6 +305,8 @@ void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTex
     upper = plainTexel(upperSum, center);
     lower = plainTexel(lowerSum, center + pitch);
 }
+
+const BlurredTexel emptyBlurred = BlurredTexel(vec3(0.0), 0.0, 0.0, 0u, false, true);
 
 void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     ivec2 texel = block.first + local;
@@ -323,20 +354,27 @@ void main() {
         loadCoarseBlock(block, thread);
     }
     barrier();
-    if ((rough & anything) == 0u && block.level == 1) { // no pixel will read these
+    bool isShort = block.rows < side;
+    ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, isShort ? 1 : 2);
+    int own = isShort ? 1 : 2; // texels, one below the other
+    if ((rough & anything) == 0u) { // no pixel will read these, but other texels of coarse levels lie near
+        for (int i = 0; i < own && block.level > 1; ++i) {
+            storeBlurred(block, local + ivec2(0, i), emptyBlurred);
+        }
         return;
     }
-    if (thread < pitch * pitch / 4) {
+    if (thread < countOf(block) / 4) {
         int row = thread / (pitch / 2);
-        noteRoughness(roughnessBetween(block.level, 2 * ivec2(thread - row * (pitch / 2), row)));
+        noteRoughness(roughnessBetween(block, 2 * ivec2(thread - row * (pitch / 2), row)));
     }
     barrier();
-    ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, 2);
     int center = (local.y + halo) * pitch + local.x + halo;
     if (separateMaterials || rough != anything) {
-        [[dont_unroll]] for (int i = 0; i < 2; ++i) {
+        [[dont_unroll]] for (int i = 0; i < own; ++i) {
             storeBlurred(block, local + ivec2(0, i), blurTexel(block.level, center + i * pitch));
         }
+    } else if (isShort) {
+        storeBlurred(block, local, blurPlain(block.level, center));
     } else {
         BlurredTexel upper;
         BlurredTexel lower;

@@ -21,6 +21,9 @@ const float bankPlainStep = 1.5f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). Twice half the variance (in texels) of a whole level
 // would be 1.25: −0.4 dB.
 const float bankBlurDepthVariance = 2.0f;
+// Blur: levels from this one on are blurred in blocks of half the height, a texel a thread: they are few, and what they take
+// is the time of one workgroup.
+const int bankShortBlocks = 3;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
 const float bankLevelDepthVariance = 8.0f;
 // Combination, per level: where the taps' weighted mean depth is `away` texel widths from the pixel's, its share falls by
