@@ -15,14 +15,22 @@ shared uvec4 plainTexels[4]; // level 3 of a plain tile
 // Of the tile's pixels and one around, mm; 0 where none receives light.
 const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
-shared uint occupied; // whether some pixel receives light
+shared uint occupied; // whether some pixel has a material
 shared uint notPlain; // whether some block is not plain
 
 // 2x2 px, row by row.
 struct Block {
     uint material[4];
-    float depth[4]; // mm, 0 where none receives light
-    vec3 light[4];  // as it enters
+    float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
+    vec3 light[4];  // irradiance; from decodeBlock on as it enters
+};
+
+// One of the pixels around the tile.
+struct RingPixel {
+    ivec2 pixel;
+    int place; // in `depths`
+    uint material;
+    float depth; // as in the image
 };
 
 // A pixel of the image, as near as there is one.
@@ -43,37 +51,46 @@ int depthPlace(ivec2 pixel) {
     return (pixel.y + 1) * pitch + pixel.x + 1;
 }
 
-float receivingDepth(uint material, float z) {
-    return material != 0u && isValidZ(z) ? -z : 0.0;
-}
-
-// Everything is fetched before anything is asked, so that the fetches overlap. `light` is the irradiance.
 Block fetchBlock(ivec2 first) {
     Block block;
     uint id[4];
-    float depth[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 pixel = imagePixel(first + offsetOf(i));
         id[i] = texelFetch(materialIdImage, pixel, 0).r;
-        depth[i] = texelFetch(depthImage, pixel, 0).r;
+        block.depth[i] = texelFetch(depthImage, pixel, 0).r;
         block.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         block.material[i] = isInExtent(first + offsetOf(i)) ? materialOfId(id[i]) : 0u;
-        block.depth[i] = receivingDepth(block.material[i], viewZ(imagePixel(first + offsetOf(i)), depth[i]));
     }
     return block;
 }
 
 // The pixels around the tile, without its corners: one a thread.
-void loadRing(ivec2 tileFirst, int thread) {
+RingPixel fetchRing(ivec2 tileFirst, int thread) {
     int along = thread % tileSize;
     int beyond = (thread / tileSize & 1) == 0 ? -1 : tileSize;
     ivec2 place = thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
     ivec2 pixel = imagePixel(tileFirst + place);
-    float z = viewZ(pixel);
+    float depth = texelFetch(depthImage, pixel, 0).r;
     uint material = isInExtent(tileFirst + place) ? materialAt(pixel) : 0u;
-    depths[depthPlace(place)] = receivingDepth(material, z);
+    return RingPixel(pixel, depthPlace(place), material, depth);
+}
+
+float receivingDepth(uint material, ivec2 pixel, float depth) {
+    float z = viewZ(pixel, depth);
+    return material != 0u && isValidZ(z) ? -z : 0.0;
+}
+
+void decodeBlock(inout Block block, ivec2 first) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        block.depth[i] = receivingDepth(block.material[i], imagePixel(first + offsetOf(i)), block.depth[i]);
+    }
+    if (hasFlag(flagAlbedo)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            block.light[i] *= albedoBefore(imagePixel(first + offsetOf(i)), block.material[i]);
+        }
+    }
 }
 
 // Depths beside a 2x2 block: left and right of its rows, above and below its columns.
@@ -167,12 +184,7 @@ Reduced reduceAny(Block block, Sides sides) {
     return result;
 }
 
-Reduced reduceBlock(Block block, ivec2 first, int place) {
-    if (hasFlag(flagAlbedo)) {
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            block.light[i] *= albedoBefore(imagePixel(first + offsetOf(i)), block.material[i]);
-        }
-    }
+Reduced reduceBlock(Block block, int place) {
     Sides sides = sidesOf(place);
     float width = texelWidth(0, block.depth[0]);
     Reduced reduced;
@@ -253,9 +265,12 @@ void reducePlainTile(ivec2 tile, int thread) {
 
 // A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters.
 void emptyTile(Block block, ivec2 tile, ivec2 texel, ivec2 first, int thread) {
+    bool hasAlbedo = hasFlag(flagAlbedo);
     [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = first + offsetOf(i) + view.areaOffset;
+        vec3 albedo = hasAlbedo ? texelFetch(albedoImage, imagePixel(first + offsetOf(i)), 0).rgb : vec3(1.0);
         if (isInExtent(first + offsetOf(i))) {
-            writeUnscattered(first + offsetOf(i) + view.areaOffset, block.light[i]);
+            imageStore(scatteredImage, pixel, vec4(block.light[i] * albedo, 1.0));
         }
     }
     int index = texelIndex(1, tile * side + texel);
@@ -287,15 +302,10 @@ void main() {
         notPlain = 0u;
     }
     barrier();
-    loadRing(tile * tileSize, thread);
+    // Everything is fetched before anything is asked, so that the fetches overlap.
     Block block = fetchBlock(first);
-    int place = depthPlace(2 * texel);
-    bool receives = false;
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        depths[place + (i & 1) + (i >> 1) * pitch] = block.depth[i];
-        receives = receives || block.depth[i] > 0.0;
-    }
-    if (receives) {
+    RingPixel ring = fetchRing(tile * tileSize, thread);
+    if ((block.material[0] | block.material[1] | block.material[2] | block.material[3]) != 0u) {
         atomicOr(occupied, 1u);
     }
     barrier();
@@ -306,7 +316,14 @@ void main() {
         emptyTile(block, tile, texel, first, thread);
         return;
     }
-    Reduced reduced = reduceBlock(block, first, place);
+    decodeBlock(block, first);
+    int place = depthPlace(2 * texel);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        depths[place + (i & 1) + (i >> 1) * pitch] = block.depth[i];
+    }
+    depths[ring.place] = receivingDepth(ring.material, ring.pixel, ring.depth);
+    barrier();
+    Reduced reduced = reduceBlock(block, place);
     uvec4 packed = packRaw(reduced.texel);
     texels[thread] = packed;
     int index = texelIndex(1, tile * side + texel);

@@ -46,14 +46,11 @@ vec3 enteringLight(ivec2 pixel, uint material) {
     return texelFetch(irradianceImage, pixel, 0).rgb * albedoBefore(pixel, material);
 }
 
-// Writes a pixel without subsurface scattering, given its irradiance.
-void writeUnscattered(ivec2 pixel, vec3 light) {
+// Writes a pixel without subsurface scattering.
+void writeUnscattered(ivec2 pixel) {
+    vec3 light = texelFetch(irradianceImage, pixel, 0).rgb;
     vec3 albedo = hasFlag(flagAlbedo) ? texelFetch(albedoImage, pixel, 0).rgb : vec3(1.0);
     imageStore(scatteredImage, pixel, vec4(light * albedo, 1.0));
-}
-
-void writeUnscattered(ivec2 pixel) {
-    writeUnscattered(pixel, texelFetch(irradianceImage, pixel, 0).rgb);
 }
 
 // The pixel's factor on how much of its light scatters, [0, 1].
