@@ -115,9 +115,7 @@ ivec2 placeOf(Block block, int index) {
 void loadBlock(Block block, int thread) {
     uvec4 words[blockSteps];
     [[unroll]] for (int i = 0; i < blockSteps; ++i) {
-        if (i * threads < countOf(block)) {
-            words[i] = rawWords(block.level, placeOf(block, thread + i * threads));
-        }
+        words[i] = rawWords(block.level, placeOf(block, thread + i * threads));
     }
     uint roughness = 0u;
     [[unroll]] for (int i = 0; i < blockSteps; ++i) {
