@@ -132,8 +132,8 @@ ShadowPoint project(LightParameters light, Receiver receiver) {
     return point;
 }
 
-// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; loops of
-// one turn instead of a switch, because software devices run every side of a branch but skip loops.
+// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
+// groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
 mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
     mat4 stored = mat4(0.0);
 #define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
@@ -144,8 +144,12 @@ mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
     for (bool here = map == index; here; here = false) {                                                               \
         stored = mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w));                 \
     }
-    FETCH(0) FETCH(1) FETCH(2) FETCH(3) FETCH(4) FETCH(5) FETCH(6) FETCH(7)
-    FETCH(8) FETCH(9) FETCH(10) FETCH(11) FETCH(12) FETCH(13) FETCH(14) FETCH(15)
+#define FETCH_GROUP(first)                                                                                             \
+    for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
+        FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
+    }
+    FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
+#undef FETCH_GROUP
 #undef FETCH
 #undef ROW
 #undef TEXEL
