@@ -4,8 +4,11 @@
 #include "validation.hpp"
 #include "view.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 
 namespace nacre::effect {
@@ -86,9 +89,39 @@ void checkLight(const NacreLight& light, const FieldName& field, std::uint32_t s
     }
 }
 
+using Row = std::array<double, 4>;
+
+/// A row of shadowClipFromWorld, for offsets from the light's position.
+Row shadowRow(const NacreLight& light, int row) {
+    const float* m = light.shadowClipFromWorld + row;
+    Row result{m[0], m[4], m[8], m[12]};
+    for (std::size_t i = 0; i < 3; ++i) {
+        result[3] += result[i] * light.position[i];
+    }
+    return result;
+}
+
+void setProjection(LightParameters& parameters, const NacreLight& light, VkExtent2D size) {
+    const Row w = shadowRow(light, 3);
+    const auto scaled = [](const Row& row, double scale) {
+        const auto value = [&](std::size_t i) { return static_cast<float>(scale * row[i]); };
+        return vec4{value(0), value(1), value(2), value(3)};
+    };
+    double texel = 0;
+    const auto texelRow = [&](int axis, double texels) {
+        Row row = shadowRow(light, axis);
+        texel = std::max(texel, 2 / (std::hypot(row[0], row[1], row[2]) * texels));
+        std::transform(row.begin(), row.end(), w.begin(), row.begin(), std::plus<>());
+        return scaled(row, 0.5 * texels); // clip [-1, 1] is [0, texels]
+    };
+    parameters.shadowX = texelRow(0, size.width);
+    parameters.shadowY = texelRow(1, size.height);
+    parameters.shadowW = scaled(w, 1);
+    parameters.shadowTexel = static_cast<float>(texel);
+}
+
 LightParameters parametersOf(const NacreLight& light, const NacreTransmitInfo& info, float metersPerUnit) {
     LightParameters parameters{};
-    std::memcpy(&parameters.shadowClipFromWorld, light.shadowClipFromWorld, sizeof(parameters.shadowClipFromWorld));
     parameters.position = {light.position[0], light.position[1], light.position[2], light.range};
     if (light.kind != NACRE_LIGHT_POINT) {
         const float length = std::hypot(light.direction[0], light.direction[1], light.direction[2]);
@@ -108,6 +141,11 @@ LightParameters parametersOf(const NacreLight& light, const NacreTransmitInfo& i
     if (light.shadowMap != NACRE_NO_SHADOW_MAP) {
         const VkExtent2D size = info.shadowMaps[light.shadowMap].extent;
         parameters.shadowSize = {static_cast<float>(size.width), static_cast<float>(size.height)};
+        if (light.kind == NACRE_LIGHT_POINT) {
+            parameters.shadowTexel = 2.0f / static_cast<float>(std::min(size.width, size.height));
+        } else {
+            setProjection(parameters, light, size);
+        }
     }
     return parameters;
 }

@@ -3,11 +3,13 @@
 #include "record.hpp"
 #include "validation.hpp"
 
+#include "core/half.hpp"
 #include "nacre/gaussian.hpp"
 
 #include "transmit.spv.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace nacre::effect {
@@ -18,25 +20,37 @@ constexpr double tableEndShare = 1e-4;
 
 void setLayers(TransmitTable& table, std::span<const Layer> layers) {
     constexpr double leastVariance = 1e-12; // mm²: a point mass lets light through no thickness at all
-    table.end.y = static_cast<float>(layers.size());
+    table.layerCount = static_cast<uint>(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         table.layers[i] = toVec4(layers[i].weight, 1 / std::max(layers[i].variance, leastVariance));
+    }
+}
+
+/// Sets entry i's own transmittance, which is the next one's of the entry before.
+template <typename Transmittance> void setEntry(TransmitTable& table, uint i, const Transmittance& transmittance) {
+    constexpr uint uvec4::*channels[] = {&uvec4::x, &uvec4::y, &uvec4::z};
+    for (int channel = 0; channel < 3; ++channel) {
+        const uint value = toHalf(static_cast<float>(transmittance(channel)));
+        table.transmittance[i].*channels[channel] |= value;
+        if (i > 0) {
+            table.transmittance[i - 1].*channels[channel] |= value << 16;
+        }
     }
 }
 
 void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
     TransmitTable table{};
     const double end = profile.quantileRadius(1 - tableEndShare);
-    table.end = {static_cast<float>(end), 0, 0, 0};
+    const double scale = (std::exp2(transmittanceOctaves) - 1) / end;
+    table.scale = static_cast<float>(scale);
     if (const auto* layered = dynamic_cast<const SumOfGaussiansProfile*>(&profile)) {
         setLayers(table, layered->layers());
     }
-    for (std::size_t i = 0; i + 1 < transmittanceEntries; ++i) {
-        const double share = static_cast<double>(i) / (transmittanceEntries - 1);
-        const auto value = [&](int channel) {
-            return static_cast<float>(profile.slabTransmittance(channel, end * share * share));
-        };
-        table.transmittance[i] = {value(0), value(1), value(2), 0};
+    constexpr uint perOctave = 1u << transmittanceMantissaBits;
+    for (uint i = 0; i < transmittanceLast; ++i) {
+        const double mantissa = 1 + static_cast<double>(i % perOctave) / perOctave;
+        const double thickness = (std::ldexp(mantissa, static_cast<int>(i / perOctave)) - 1) / scale;
+        setEntry(table, i, [&](int channel) { return profile.slabTransmittance(channel, thickness); });
     }
     std::memcpy(bytes.data(), &table, sizeof(table));
 }

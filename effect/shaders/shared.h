@@ -181,18 +181,25 @@ NACRE_FUNCTION uint thesisKernelStart(uint radius) {
     return (radius - 1u) * (radius + 2u) / 2u;
 }
 
-// Transmittance table: entry i is T at d = end·(i / (entries - 1))²; beyond the last T is 0. And the profile's layers,
-// for thesisTransmittance: weights, and 1/mm² of variance in w.
-NACRE_CONSTANT transmittanceEntries = 95;
+// Transmittance table over x = 1 + scale·d in [1, 2^octaves], as dense as floats: x's exponent and the first bits of
+// its mantissa are the entry's index. An entry holds T where it begins (the low half floats of red, green and blue) and
+// where the next one begins (the high ones); from the last on T is 0. And the profile's layers, for
+// thesisTransmittance: weights, and 1/mm² of variance in w.
+NACRE_CONSTANT transmittanceOctaves = 8;
+NACRE_CONSTANT transmittanceMantissaBits = 5;
+NACRE_CONSTANT transmittanceLast = transmittanceOctaves << transmittanceMantissaBits;
 struct TransmitTable {
-    vec4 end; // x: mm; y: number of layers, 0 = Burley's profile
-    vec4 transmittance[transmittanceEntries];
+    float scale;     // 1/mm
+    uint layerCount; // 0 = Burley's profile
+    uint unused0, unused1;
+    uvec4 transmittance[transmittanceLast + 1];
     vec4 layers[maxLayers];
 };
 
 // A light of nacreCmdTransmit; world space, scene units.
 struct LightParameters {
-    mat4 shadowClipFromWorld;
+    // Directional, spot: rows that project an offset from `position` to its shadow map, texel · w and w.
+    vec4 shadowX, shadowY, shadowW;
     vec4 position;   // w: range, 0 = unlimited
     vec4 direction;  // normalised; w: shadowRange
     vec4 irradiance; // w: millimetres per unit times 1e-3, i.e. metres per unit
@@ -201,7 +208,7 @@ struct LightParameters {
     uint kind;
     uint shadowMap; // NACRE_NO_SHADOW_MAP = none
     uint shadowLayer;
-    uint unused0;
+    float shadowTexel; // scene units, size of a texel where w is 1
     vec2 shadowSize; // texels
 };
 
@@ -218,9 +225,10 @@ static_assert(sizeof(BrutePixel) == 48);
 static_assert(sizeof(BankDispatch) == 16);
 static_assert(offsetof(BurleyTable, radial) == 32 && sizeof(BurleyTable) == 16 * (2 + 2 * burleyEntries));
 static_assert(thesisKernelStart(1) == 0 && thesisKernelStart(thesisMaxRadius + 1) == thesisTaps);
-static_assert(sizeof(TransmitTable) == 16 * (1 + transmittanceEntries + maxLayers));
-static_assert(offsetof(LightParameters, position) == 64 && offsetof(LightParameters, coneScale) == 112 && offsetof(LightParameters, shadowSize) == 136 &&
-              sizeof(LightParameters) == 144);
+static_assert(offsetof(TransmitTable, transmittance) == 16 &&
+              sizeof(TransmitTable) == 16 * (2 + transmittanceLast + maxLayers));
+static_assert(offsetof(LightParameters, position) == 48 && offsetof(LightParameters, coneScale) == 96 &&
+              offsetof(LightParameters, shadowSize) == 120 && sizeof(LightParameters) == 128);
 
 } // namespace nacre::effect
 #endif

@@ -54,11 +54,21 @@ struct Incidence {
     vec3 irradiance; // on a surface that faces the light
 };
 
-// Where a point falls in a shadow map: texel coordinates, layer, and a texel's size there.
-struct ShadowPoint {
-    vec2 texel;
+// Projects offsets from the light to a layer of its shadow map: rows for texel coordinates times w, and for w.
+struct ShadowProjection {
+    vec4 x, y, w;
     uint layer;
+};
+
+// Where the receiver falls in a shadow map, moved inwards by the normal offset, so that at silhouettes it finds its own
+// body.
+struct ShadowPoint {
+    ShadowProjection projection;
+    vec3 offset; // from the light, scene units
+    vec2 texel;
+    float w;
     float texelSize; // scene units
+    float moved;     // scene units
     bool inside;
 };
 
@@ -83,148 +93,193 @@ Incidence incidenceAt(LightParameters light, vec3 position) {
     return Incidence(toLight, light.irradiance.rgb * attenuation);
 }
 
-// Face and coordinates of a direction as in Vulkan's cube maps ("Cube Map Face Selection"): xy in [-1, 1] over z.
-vec3 cubeFace(vec3 direction, out uint face) {
-    vec3 size = abs(direction);
-    if (size.x >= size.y && size.x >= size.z) {
-        face = direction.x > 0.0 ? 0u : 1u;
-        return vec3(direction.x > 0.0 ? -direction.z : direction.z, -direction.y, size.x);
-    }
-    if (size.y >= size.z) {
-        face = direction.y > 0.0 ? 2u : 3u;
-        return vec3(direction.x, direction.y > 0.0 ? direction.z : -direction.z, size.y);
-    }
-    face = direction.z > 0.0 ? 4u : 5u;
-    return vec3(direction.z > 0.0 ? direction.x : -direction.x, -direction.y, size.z);
+// The face that an offset points at, as in Vulkan's cube maps ("Cube Map Face Selection").
+ShadowProjection cubeFace(LightParameters light, vec3 offset) {
+    vec3 size = abs(offset);
+    bool x = size.x >= size.y && size.x >= size.z;
+    bool y = !x && size.y >= size.z;
+    float side = (x ? offset.x : y ? offset.y : offset.z) > 0.0 ? 1.0 : -1.0;
+    vec3 major = side * vec3(x, y, !x && !y);
+    vec3 s = x ? vec3(0.0, 0.0, -side) : vec3(y ? 1.0 : side, 0.0, 0.0);
+    vec3 t = y ? vec3(0.0, 0.0, side) : vec3(0.0, -1.0, 0.0);
+    uint face = (x ? 0u : y ? 2u : 4u) + (side > 0.0 ? 0u : 1u);
+    vec2 middle = 0.5 * light.shadowSize;
+    return ShadowProjection(vec4(middle.x * (s + major), 0.0), vec4(middle.y * (t + major), 0.0), vec4(major, 0.0),
+                            light.shadowLayer + face);
 }
 
-ShadowPoint project(LightParameters light, vec3 position) {
-    vec2 size = light.shadowSize;
-    vec3 offset = position - light.position.xyz;
-    ShadowPoint point;
-    point.layer = light.shadowLayer;
-    vec2 coordinates;
-    float w;
-    vec2 scale; // clip units per scene unit where w is 1
+ShadowProjection projectionAt(LightParameters light, vec3 offset) {
     if (light.kind == lightPoint) {
-        uint face;
-        vec3 cube = cubeFace(offset, face);
-        point.layer += face;
-        coordinates = cube.xy / cube.z;
-        w = cube.z;
-        scale = vec2(1.0);
-    } else {
-        mat4 clip = light.shadowClipFromWorld;
-        vec4 projected = clip * vec4(position, 1.0);
-        w = projected.w;
-        coordinates = projected.xy / w;
-        scale = vec2(length(vec3(clip[0].x, clip[1].x, clip[2].x)), length(vec3(clip[0].y, clip[1].y, clip[2].y)));
+        return cubeFace(light, offset);
     }
-    point.texel = (coordinates * 0.5 + 0.5) * size;
-    point.texelSize = max(2.0 * w / (scale.x * size.x), 2.0 * w / (scale.y * size.y));
-    point.inside = w > 0.0 && all(lessThan(abs(coordinates), vec2(1.0)));
+    return ShadowProjection(light.shadowX, light.shadowY, light.shadowW, light.shadowLayer);
+}
+
+ShadowPoint project(LightParameters light, Receiver receiver) {
+    vec3 offset = receiver.position - light.position.xyz;
+    vec3 size = abs(offset);
+    float w = light.kind == lightPoint ? max(size.x, max(size.y, size.z)) : dot(light.shadowW, vec4(offset, 1.0));
+    ShadowPoint point;
+    point.texelSize = light.shadowTexel * max(w, 0.0);
+    point.moved = parameters.normalOffset * point.texelSize;
+    point.offset = offset - receiver.normal * point.moved;
+    point.projection = projectionAt(light, point.offset);
+    vec4 inner = vec4(point.offset, 1.0);
+    point.w = dot(point.projection.w, inner);
+    point.texel = vec2(dot(point.projection.x, inner), dot(point.projection.y, inner)) / point.w;
+    point.inside = point.w > 0.0 && all(greaterThanEqual(point.texel, vec2(0.0))) &&
+                   all(lessThanEqual(point.texel, light.shadowSize));
     return point;
 }
 
-// A shadow map's texel. Constant indices, because not every device indexes arrays of images dynamically; loops of one
-// turn instead of a switch, because software devices run every side of a branch but skip loops.
-float storedDepth(uint map, ivec3 texel) {
-    float value = 0.0;
+// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
+// groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
+mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
+    mat4 stored = mat4(0.0);
+#define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
+#define ROW(index, row)                                                                                                \
+    vec4(TEXEL(index, columns.x, row), TEXEL(index, columns.y, row), TEXEL(index, columns.z, row),                     \
+         TEXEL(index, columns.w, row))
 #define FETCH(index)                                                                                                   \
     for (bool here = map == index; here; here = false) {                                                               \
-        value = texelFetch(shadowMaps[index], texel, 0).r;                                                             \
+        stored = mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w));                 \
     }
-    FETCH(0) FETCH(1) FETCH(2) FETCH(3) FETCH(4) FETCH(5) FETCH(6) FETCH(7)
-    FETCH(8) FETCH(9) FETCH(10) FETCH(11) FETCH(12) FETCH(13) FETCH(14) FETCH(15)
+#define FETCH_GROUP(first)                                                                                             \
+    for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
+        FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
+    }
+    FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
+#undef FETCH_GROUP
 #undef FETCH
-    return value;
+#undef ROW
+#undef TEXEL
+    return stored;
 }
 
-// Σ w·exp(−d²/v), the thesis's own form, added up layer by layer as in its shader.
-vec3 layerTransmittance(uint material, float thickness, uint layerCount) {
+// Whether to use the thesis's own form, which takes layers.
+bool usesLayers(uint material) {
+    return hasFlag(flagThesisTransmittance) && tables[material].layerCount != 0u;
+}
+
+// Σ w·exp(−d²/v), the thesis's own form, added up layer by layer as in its shader; weighted sum of four thicknesses.
+vec3 layerTransmittance(uint material, vec4 thickness, vec4 weights) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < layerCount; ++i) {
+    for (uint i = 0u; i < tables[material].layerCount; ++i) {
         vec4 layer = tables[material].layers[i];
-        sum += layer.rgb * exp(-thickness * thickness * layer.w);
+        sum += layer.rgb * dot(weights, exp(-layer.w * thickness * thickness));
     }
     return sum;
+}
+
+// Adds the weighted transmittance of a slab. The bits of a float that is at least 1 count the steps of exponent and
+// mantissa that it is beyond 1.
+void addTableTransmittance(uint material, float thickness, float weight, inout vec3 sum) {
+    const uint one = 0x3f800000u; // 1.0
+    const uint mantissa = 0x7fffffu;
+    uint bits = floatBitsToUint(1.0 + tables[material].scale * thickness) - one;
+    uint entry = min(bits >> (23u - transmittanceMantissaBits), transmittanceLast);
+    float share = uintBitsToFloat(one | (bits << transmittanceMantissaBits & mantissa)) - 1.0;
+    uvec4 values = tables[material].transmittance[entry];
+    vec2 r = unpackHalf2x16(values.r);
+    vec2 g = unpackHalf2x16(values.g);
+    vec2 b = unpackHalf2x16(values.b);
+    sum += (weight - weight * share) * vec3(r.x, g.x, b.x);
+    sum += weight * share * vec3(r.y, g.y, b.y);
 }
 
 // Transmittance of a slab of a thickness in mm.
 vec3 transmittance(uint material, float thickness) {
-    uint layerCount = uint(tables[material].end.y);
-    if (hasFlag(flagThesisTransmittance) && layerCount != 0u) {
-        return layerTransmittance(material, thickness, layerCount);
+    if (usesLayers(material)) {
+        return layerTransmittance(material, vec4(thickness), vec4(0.25));
     }
-    float end = tables[material].end.x;
-    if (end <= 0.0) {
-        return vec3(thickness > 0.0 ? 0.0 : 1.0);
-    }
-    float position = sqrt(min(thickness / end, 1.0)) * float(transmittanceEntries - 1u);
-    uint index = min(uint(position), transmittanceEntries - 2u);
-    return mix(tables[material].transmittance[index].rgb, tables[material].transmittance[index + 1u].rgb,
-               position - float(index));
+    vec3 result = vec3(0.0);
+    addTableTransmittance(material, thickness, 1.0, result);
+    return result;
 }
 
-// How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
-// are compared with the plane, not with the point, so that a slab is as thick under every tap.
-mat2x3 planeSteps(LightParameters light, Receiver receiver, ShadowPoint point) {
-    vec3 other = abs(receiver.normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
-    vec3 u = normalize(cross(receiver.normal, other)) * point.texelSize;
-    vec3 v = cross(receiver.normal, u);
-    ShadowPoint atU = project(light, receiver.position + u);
-    ShadowPoint atV = project(light, receiver.position + v);
-    mat2 texels = mat2(atU.texel - point.texel, atV.texel - point.texel);
-    if (atU.layer != point.layer || atV.layer != point.layer || abs(determinant(texels)) < 1e-6) {
-        return mat2x3(0.0);
+// Weighted sum over 4x4 slabs.
+vec3 transmittance(uint material, mat4 thickness, mat4 weights) {
+    if (usesLayers(material)) {
+        return layerTransmittance(material, thickness[0], weights[0]) +
+               layerTransmittance(material, thickness[1], weights[1]) +
+               layerTransmittance(material, thickness[2], weights[2]) +
+               layerTransmittance(material, thickness[3], weights[3]);
     }
-    mat2x3 steps = mat2x3(u, v) * inverse(texels);
-    float longest = max(length(steps[0]), length(steps[1]));
-    return steps * min(1.0, steepestPlane * point.texelSize / max(longest, 1e-20));
-}
-
-// A point's linear depth in the light's map, in scene units.
-float linearDepth(LightParameters light, vec3 position) {
-    vec3 offset = position - light.position.xyz;
-    return light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset);
-}
-
-float bounded(Receiver receiver, float thickness) {
-    return receiver.authored > 0.0 ? min(thickness, receiver.authored) : thickness;
-}
-
-// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The receiver is
-// moved inwards by the normal offset, so that at silhouettes it finds its own body; the light's way through what was
-// cut off is added again. What is filtered is the transmittance: light adds up, thickness does not.
-vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
-    float offset = parameters.normalOffset * point.texelSize;
-    ShadowPoint inner = project(light, receiver.position - receiver.normal * offset);
-    if (!inner.inside) {
-        inner = point;
-        offset = 0.0;
-    }
-    float removed = offset / max(cosine, leastCosine);
-    ivec2 last = ivec2(light.shadowSize) - 1;
-    float spacing = max(0.5 * parameters.filterRadius, 0.5);
-    vec2 coordinates = inner.texel / spacing - 0.5;
-    vec2 base = floor(coordinates);
-    mat2x3 steps = planeSteps(light, receiver, point);
-    vec3 position = receiver.position - receiver.normal * offset;
-    vec2 fraction = coordinates - base;
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 16; ++i) {
-        ivec2 tap = ivec2(i & 3, i >> 2) - 1;
-        vec2 weights = 2.0 - abs(vec2(tap) - fraction);
-        ivec2 texel = clamp(ivec2((base + vec2(tap) + 0.5) * spacing), ivec2(0), last);
-        float stored = storedDepth(light.shadowMap, ivec3(texel, inner.layer)) * light.direction.w;
-        float plane = linearDepth(light, position + steps * (vec2(texel) + 0.5 - inner.texel));
-        float thickness = bounded(receiver, max(plane - stored + removed, 0.0) * view.mmPerUnit);
-        sum += weights.x * weights.y / 16.0 * vec4(transmittance(receiver.material, thickness), thickness);
+    vec3 sum = vec3(0.0);
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            addTableTransmittance(material, thickness[row][column], weights[row][column], sum);
+        }
     }
     return sum;
 }
 
-// Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where it does not shine through.
+// How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
+// are compared with the plane, not with the point, so that a slab is as thick under every tap.
+mat2x3 planeSteps(ShadowPoint point, vec3 normal) {
+    vec3 gradientX = point.projection.x.xyz - point.texel.x * point.projection.w.xyz; // of texel · w
+    vec3 gradientY = point.projection.y.xyz - point.texel.y * point.projection.w.xyz;
+    vec3 alongX = cross(gradientY, normal);
+    vec3 alongY = cross(normal, gradientX);
+    float determinant = dot(gradientX, alongX);
+    float longest = sqrt(max(dot(alongX, alongX), dot(alongY, alongY)));
+    float scale = min(point.w / abs(determinant), steepestPlane * point.texelSize / max(longest, 1e-20));
+    return mat2x3(alongX, alongY) * (scale * sign(determinant));
+}
+
+// Linear depth of the plane's points under 4x4 taps at x and y from its middle: a polynomial's values, or their roots.
+struct PlaneDepths {
+    vec4 constant, slope; // per column
+    vec4 square;          // per row
+    bool root;
+};
+
+PlaneDepths planeDepths(LightParameters light, vec3 offset, mat2x3 steps, vec4 x, vec4 y) {
+    if (light.kind == lightDirectional) {
+        vec2 slope = light.direction.xyz * steps;
+        return PlaneDepths(dot(offset, light.direction.xyz) + slope.x * x, vec4(slope.y), vec4(0.0), false);
+    }
+    vec2 slope = 2.0 * (offset * steps);
+    return PlaneDepths(dot(offset, offset) + x * (slope.x + dot(steps[0], steps[0]) * x),
+                       slope.y + 2.0 * dot(steps[0], steps[1]) * x, dot(steps[1], steps[1]) * y * y, true);
+}
+
+// Texels of the 4 taps on an axis, and their weights.
+void taps(float coordinate, float last, out vec4 texels, out vec4 weights) {
+    const vec4 tap = vec4(-1.0, 0.0, 1.0, 2.0);
+    float spacing = max(0.5 * parameters.filterRadius, 0.5);
+    float base = floor(coordinate / spacing - 0.5);
+    float fraction = coordinate / spacing - 0.5 - base;
+    texels = clamp(floor((base + tap + 0.5) * spacing), 0.0, last);
+    weights = 0.5 - 0.25 * abs(tap - fraction);
+}
+
+// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way
+// through what the normal offset cut off is added again. What is filtered is the transmittance: light adds up,
+// thickness does not.
+vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
+    vec4 columns, rows, columnWeights, rowWeights;
+    taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);
+    taps(point.texel.y, light.shadowSize.y - 1.0, rows, rowWeights);
+    mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
+    mat2x3 steps = planeSteps(point, receiver.normal);
+    vec4 x = columns + 0.5 - point.texel.x;
+    vec4 y = rows + 0.5 - point.texel.y;
+    PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
+    float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
+    float range = light.direction.w * view.mmPerUnit;
+    float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
+    mat4 thickness;
+    for (int i = 0; i < 4; ++i) {
+        vec4 depths = plane.constant + plane.square[i] + plane.slope * y[i];
+        depths = plane.root ? sqrt(max(depths, 0.0)) : depths;
+        thickness[i] = clamp(depths + removed - stored[i] * range, 0.0, most);
+    }
+    mat4 weights = outerProduct(columnWeights, rowWeights);
+    return vec4(transmittance(receiver.material, thickness, weights), dot(thickness * rowWeights, columnWeights));
+}
+
+// Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where none shines through.
 vec4 transmitLight(LightParameters light, Receiver receiver) {
     Incidence incidence = incidenceAt(light, receiver.position);
     float cosine = -dot(receiver.normal, incidence.toLight);
@@ -235,11 +290,12 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     ShadowPoint point;
     point.inside = false;
     if (light.shadowMap != noShadowMap) {
-        point = project(light, receiver.position);
+        point = project(light, receiver);
     }
-    if (point.inside) {
+    for (bool inside = point.inside; inside; inside = false) { // software devices skip it where no pixel is inside
         through = filteredTransmittance(light, receiver, point, cosine);
-    } else if (receiver.authored > 0.0) {
+    }
+    if (!point.inside && receiver.authored > 0.0) {
         through = vec4(transmittance(receiver.material, receiver.authored), receiver.authored);
     }
     return vec4(through.rgb * incidence.irradiance * cosine, through.w);
@@ -259,9 +315,13 @@ void main() {
     }
     ivec2 pixel = local + view.areaOffset;
     uint slot = slots[texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u)];
+    if (slot == 0u) {
+        writeResult(pixel, vec3(0.0), 0.0);
+        return;
+    }
     float z = viewZ(pixel);
-    vec3 normal = viewNormal(texelFetch(normalImage, pixel, 0).xyz) * mat3(view.viewFromWorld);
-    if (slot == 0u || !isValidZ(z) || !isFinite(normal)) {
+    vec3 normal = normalize(texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias);
+    if (!isValidZ(z) || !isFinite(normal)) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;
     }
@@ -281,7 +341,8 @@ void main() {
     }
     vec3 light = vec3(0.0);
     float thickness = 1e30;
-    for (uint i = 0u; i < view.lightCount; ++i) {
+    uint lightCount = translucency > 0.0 || hasFlag(flagThicknessOut) ? view.lightCount : 0u;
+    for (uint i = 0u; i < lightCount; ++i) {
         vec4 part = transmitLight(lights[i], receiver);
         light += part.rgb;
         thickness = part.w >= 0.0 ? min(thickness, part.w) : thickness;

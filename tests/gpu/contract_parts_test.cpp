@@ -265,8 +265,8 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
          "NacreTransmitInfo::lights is null"},
         {[&](auto* m, void* to) { return nacreFillLights(&noMap, m, size, to); }, NACRE_ERROR_INVALID_ARGUMENT,
          "NacreTransmitInfo::lights[0].shadowMap is 0"},
-        {[&](auto* m, void* to) { return nacreFillLights(&transmit, m, 143, to); }, NACRE_ERROR_INVALID_ARGUMENT,
-         "size is 143, the block takes 144 bytes"},
+        {[&](auto* m, void* to) { return nacreFillLights(&transmit, m, 127, to); }, NACRE_ERROR_INVALID_ARGUMENT,
+         "size is 127, the block takes 128 bytes"},
     };
     const std::vector<std::byte> before(size, std::byte{0x5a});
     for (const Case& one : cases) {

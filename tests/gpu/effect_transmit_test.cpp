@@ -232,9 +232,15 @@ TEST_F(TransmitTest, SlabFollowsItsTransmittance) {
 }
 
 TEST_F(TransmitTest, EveryCubeFaceIsTheRightWayRound) {
+    const double half = std::sqrt(0.5);
     const Frame frames[] = {
-        {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}, {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
-        {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+        {{half, 0, -half}, {0, 1, 0}, {half, 0, half}}, // two faces meet in the middle
+        {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}},
+        {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+        {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+        {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+        {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
     };
     for (const Frame& frame : frames) {
         const Slab slab{.thickness = 3, .slope = 0.06, .frame = frame};
@@ -345,6 +351,20 @@ TEST_F(TransmitTest, ThesisTransmittance) {
         expected += layer.weight[0] * std::exp(-1.5 * 1.5 / layer.variance);
     }
     EXPECT_NEAR(result.light[imageSize * imageSize / 2][0], expected, 0.02 * expected);
+}
+
+TEST_F(TransmitTest, WithoutTranslucencyThicknessIsLeft) {
+    const Slab slab{.thickness = 1};
+    const NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+    const GpuImage map = shadowMap(source, slab);
+    const NacreImage maps[] = {map.nacre()};
+    NacreMaterial material = opaqueTo(skin());
+    material.translucency = 0;
+    const Result result = transmit(material, {&source, 1}, maps);
+    for (std::size_t i = 0; i < result.light.size(); ++i) {
+        ASSERT_EQ(result.light[i][0], 0);
+        ASSERT_NEAR(result.thickness[i], 1, 1e-2f);
+    }
 }
 
 TEST_F(TransmitTest, TranslucencyScales) {

@@ -1,9 +1,12 @@
-// effect_timing: GPU times of the scatter techniques on synthetic scenes, beside a copy pass, as a table and CSV.
-//   effect_timing [--suite scenes|targets|footprint|layers|materials|all] [--size WxH] [--csv FILE] [--rounds N]
+// effect_timing: GPU times of the scatter techniques and of transmit on synthetic scenes, beside a copy pass, as a
+// table and CSV.
+//   effect_timing [--suite scenes|targets|footprint|layers|materials|transmit|all] [--size WxH] [--csv FILE]
+//                 [--rounds N]
 // Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 20 steady repeats.
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/gpu/timing/copy_pass.hpp"
 #include "tests/gpu/timing/measure.hpp"
+#include "tests/gpu/timing/transmit_scene.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -247,6 +250,37 @@ void runMaterials(Gpu& gpu, const Options& options, std::vector<Row>& all) {
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
+// Three lights with shadow maps. Twice: the difference is the noise floor.
+void runTransmit(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
+    constexpr std::uint32_t shadowMapSize = 2048;
+    const Subject subject{.kind = SceneKind::Spheres, .extent = options.extent, .coverage = 0.25, .materials = 1};
+    NacreContextInfo contextInfo = gpu.contextInfo(options.extent);
+    contextInfo.recordsPerFrame = options.measure.repeats;
+    contextInfo.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
+    Effect effect(gpu, contextInfo);
+    Material material = skin();
+    material.translucency = 1;
+    effect.setMaterials({&material, 1});
+    const TransmitScene scene(gpu, subject.extent, subject.coverage, shadowMapSize);
+    Variant variant{.name = "transmit", .passes = {"nacre transmit"}};
+    variant.begin = [&effect] { nacreBeginFrame(effect.context, 0); };
+    variant.record = [&](VkCommandBuffer commandBuffer, VkQueryPool pool, std::uint32_t first) {
+        NacreTransmitInfo info = scene.info;
+        info.timestamps = {pool, first};
+        if (nacreCmdTransmit(effect.context, commandBuffer, &info) != NACRE_SUCCESS) {
+            throw std::runtime_error(effect.messages.back());
+        }
+    };
+    std::vector<Variant> variants(2, variant);
+    variants[1].name += " again";
+    std::printf("%s, 3 lights\n", subject.label().c_str());
+    for (Timing& timing : measure(gpu, variants, options.measure)) {
+        print(timing);
+        rows.push_back({subject, std::move(timing)});
+    }
+    std::fflush(stdout);
+}
+
 void writeCsv(const Options& options, std::span<const Row> rows) {
     std::ofstream file(options.csv);
     file << "scene,width,height,coverage,footprint,layers,materials,technique,samples,steady_median_us,steady_p5_us,"
@@ -301,11 +335,8 @@ int main(int count, char** arguments) {
         std::printf("%s, driver %u\n", gpu.properties.deviceName, gpu.properties.driverVersion);
         std::vector<Row> rows;
         const std::pair<const char*, void (*)(Gpu&, const Options&, std::vector<Row>&)> suites[] = {
-            {"scenes", runScenes},
-            {"targets", runTargets},
-            {"footprint", runFootprints},
-            {"layers", runLayers},
-            {"materials", runMaterials}};
+            {"scenes", runScenes}, {"targets", runTargets},     {"footprint", runFootprints},
+            {"layers", runLayers}, {"materials", runMaterials}, {"transmit", runTransmit}};
         bool known = false;
         for (const auto& [name, run] : suites) {
             if (options.suite == "all" || options.suite == name) {
@@ -315,7 +346,7 @@ int main(int count, char** arguments) {
         }
         if (!known) {
             throw std::runtime_error("--suite is '" + options.suite +
-                                     "', must be scenes, targets, footprint, layers, materials or all");
+                                     "', must be scenes, targets, footprint, layers, materials, transmit or all");
         }
         writeCsv(options, rows);
         return 0;
