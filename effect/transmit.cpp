@@ -26,18 +26,6 @@ void setLayers(TransmitTable& table, std::span<const Layer> layers) {
     }
 }
 
-/// Sets entry i's own transmittance, which is the next one's of the entry before.
-template <typename Transmittance> void setEntry(TransmitTable& table, uint i, const Transmittance& transmittance) {
-    constexpr uint uvec4::*channels[] = {&uvec4::x, &uvec4::y, &uvec4::z};
-    for (int channel = 0; channel < 3; ++channel) {
-        const uint value = toHalf(static_cast<float>(transmittance(channel)));
-        table.transmittance[i].*channels[channel] |= value;
-        if (i > 0) {
-            table.transmittance[i - 1].*channels[channel] |= value << 16;
-        }
-    }
-}
-
 void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
     TransmitTable table{};
     const double end = profile.quantileRadius(1 - tableEndShare);
@@ -50,7 +38,10 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
     for (uint i = 0; i < transmittanceLast; ++i) {
         const double mantissa = 1 + static_cast<double>(i % perOctave) / perOctave;
         const double thickness = (std::ldexp(mantissa, static_cast<int>(i / perOctave)) - 1) / scale;
-        setEntry(table, i, [&](int channel) { return profile.slabTransmittance(channel, thickness); });
+        const auto half = [&](int channel) {
+            return uint{toHalf(static_cast<float>(profile.slabTransmittance(channel, thickness)))};
+        };
+        table.transmittance[i] = {half(0) | half(1) << 16, half(2)};
     }
     std::memcpy(bytes.data(), &table, sizeof(table));
 }

@@ -182,17 +182,16 @@ NACRE_FUNCTION uint thesisKernelStart(uint radius) {
 }
 
 // Transmittance table over x = 1 + scale·d in [1, 2^octaves], as dense as floats: x's exponent and the first bits of
-// its mantissa are the entry's index. An entry holds T where it begins (the low half floats of red, green and blue) and
-// where the next one begins (the high ones); from the last on T is 0. And the profile's layers, for
-// thesisTransmittance: weights, and 1/mm² of variance in w.
+// its mantissa are the entry's index. An entry holds T where it begins, three half floats; from the last on T is 0. And the
+// profile's layers, for thesisTransmittance: weights, and 1/mm² of variance in w.
 NACRE_CONSTANT transmittanceOctaves = 8;
-NACRE_CONSTANT transmittanceMantissaBits = 5;
+NACRE_CONSTANT transmittanceMantissaBits = 4;
 NACRE_CONSTANT transmittanceLast = transmittanceOctaves << transmittanceMantissaBits;
 struct TransmitTable {
     float scale;     // 1/mm
     uint layerCount; // 0 = Burley's profile
     uint unused0, unused1;
-    uvec4 transmittance[transmittanceLast + 1];
+    uvec2 transmittance[transmittanceLast + 2];
     vec4 layers[maxLayers];
 };
 
@@ -226,7 +225,7 @@ static_assert(sizeof(BankDispatch) == 16);
 static_assert(offsetof(BurleyTable, radial) == 32 && sizeof(BurleyTable) == 16 * (2 + 2 * burleyEntries));
 static_assert(thesisKernelStart(1) == 0 && thesisKernelStart(thesisMaxRadius + 1) == thesisTaps);
 static_assert(offsetof(TransmitTable, transmittance) == 16 &&
-              sizeof(TransmitTable) == 16 * (2 + transmittanceLast + maxLayers));
+              sizeof(TransmitTable) == 16 * (1 + maxLayers) + 8 * (transmittanceLast + 2));
 static_assert(offsetof(LightParameters, position) == 48 && offsetof(LightParameters, coneScale) == 96 &&
               offsetof(LightParameters, shadowSize) == 120 && sizeof(LightParameters) == 128);
 

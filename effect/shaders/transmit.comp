@@ -179,12 +179,10 @@ void addTableTransmittance(uint material, float thickness, float weight, inout v
     uint bits = floatBitsToUint(1.0 + tables[material].scale * thickness) - one;
     uint entry = min(bits >> (23u - transmittanceMantissaBits), transmittanceLast);
     float share = uintBitsToFloat(one | (bits << transmittanceMantissaBits & mantissa)) - 1.0;
-    uvec4 values = tables[material].transmittance[entry];
-    vec2 r = unpackHalf2x16(values.r);
-    vec2 g = unpackHalf2x16(values.g);
-    vec2 b = unpackHalf2x16(values.b);
-    sum += (weight - weight * share) * vec3(r.x, g.x, b.x);
-    sum += weight * share * vec3(r.y, g.y, b.y);
+    uvec2 before = tables[material].transmittance[entry];
+    uvec2 after = tables[material].transmittance[entry + 1u];
+    sum += (weight - weight * share) * vec3(unpackHalf2x16(before.x), unpackHalf2x16(before.y).x);
+    sum += weight * share * vec3(unpackHalf2x16(after.x), unpackHalf2x16(after.y).x);
 }
 
 // Transmittance of a slab of a thickness in mm.

@@ -192,7 +192,7 @@ typedef struct NacreContextInfo {
     uint32_t recordsPerFrame;  /**< [1 … 64] scatter calls, and transmit calls, per frame (views); 0 = 1 */
     uint32_t maxMaterials;     /**< [1 … 65535] most materials that are set, whatever their ids; 0 = 64. Each takes
                                     NacreCost::materialBytes of every technique, in buffers no larger than the device's
-                                    maxStorageBufferRange: where that is 128 MiB, 65535 of separable, 24671 of bank */
+                                    maxStorageBufferRange: where that is 128 MiB, 65535 of separable, 9350 of bank */
     uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
     NacreMessageCallback messageCallback; /**< null = silent */
     void* userData;            /**< handed to messageCallback */
