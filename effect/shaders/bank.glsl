@@ -205,9 +205,10 @@ vec2 weightsBeside(vec2 slope) {
                       falloff(slope.y * slope.y / bankPixelDepthVariance));
 }
 
-// What a tap adds to the denominator: on the surface its weight, on another one the weight it would have had.
-float countedWeight(float kernel, float weight, float depthDifference, float width) {
-    return weight + clamp(abs(depthDifference) / width - bankMissingDepth, 0.0, 1.0) * kernel;
+// What a kernel's share of a pixel is multiplied by, from the surface within its reach: Σ kernel · depth weight · area,
+// which is 1 on a plane of any slope, and less where some is missing or away.
+float massOf(float area) {
+    return min(area, 1.0);
 }
 
 // Whether a texel or pixel gives light to a material.

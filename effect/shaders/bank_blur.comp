@@ -80,7 +80,9 @@ uint roughnessBetween(Block from, ivec2 first) {
             block[y][x] = depths[place.y * pitch + place.x];
         }
     }
-    float limit = bankSmoothDepth * texelWidth(from.level, block[0][0]);
+    bool hasHole = min(min(block[0][0], block[0][1]), min(block[1][0], block[1][1])) == 0.0;
+    float depth = max(max(block[0][0], block[0][1]), max(block[1][0], block[1][1]));
+    float limit = (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * texelWidth(from.level, depth);
     uint result = 0u;
     [[unroll]] for (int y = 0; y < 2; ++y) {
         bool steps = false;
@@ -203,23 +205,19 @@ BlurredTexel findSurface(int level, int center) {
 struct Sums {
     vec3 light;
     float area;
-    float mass;
-    float counted; // what the weights would sum to if nothing were missing
 };
 
 void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width) {
     float difference = tap.depth - surface.depth;
     float weight = kernel * falloff(difference * difference / (bankBlurDepthVariance * width * width));
     bool taken = tap.mass > 0.0 && givesLight(tap.material, surface.material);
-    sums.counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
     weight = taken ? weight : 0.0;
     sums.light += weight * tap.light;
     sums.area += weight * tap.area;
-    sums.mass += weight * tap.mass;
 }
 
 void divide(inout BlurredTexel texel, Sums sums) {
-    texel.mass = sums.mass / max(sums.counted, bankLeastWeight);
+    texel.mass = massOf(sums.area);
     texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
 }
 
@@ -228,7 +226,7 @@ BlurredTexel blurTexel(int level, int center) {
     const float binomial[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
     BlurredTexel result = findSurface(level, center);
     float width = texelWidth(level, result.depth);
-    Sums sums = Sums(vec3(0.0), 0.0, 0.0, 0.0);
+    Sums sums = Sums(vec3(0.0), 0.0);
     [[dont_unroll]] for (int y = 0; y < 5; ++y) {
         [[unroll]] for (int x = 0; x < 5; ++x) {
             RawTexel tap = texelAt(center + x - halo + (y - halo) * pitch);

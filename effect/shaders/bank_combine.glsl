@@ -339,15 +339,27 @@ float levelScale(int level, float depth) {
     return 1.0 / (bankLevelDepthVariance * width * width);
 }
 
-// Adds a level with depth weights, which the quad's pixels share.
-void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth, vec4 offsets,
-                      uint material) {
+// In edge regions that of level 1, too.
+uvec2 levelSurface(int index) {
+    return isEdge && index < fineCount ? fineSurfaces[index] : coarseSurfaces[index - fineCount];
+}
+
+// The four texels around, for a surface at `depth`.
+Tap[4] cornerTaps(int level, Corner corner, float depth, uint material) {
     float scale = levelScale(level, depth);
     Tap taps[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int index = corner.index + (i & 1) + (i >> 1) * levelPitch[level].x;
-        taps[i] = weightedTap(levelLights[index], coarseSurfaces[index - fineCount], depth, scale, material);
+        taps[i] = weightedTap(levelLights[index], levelSurface(index), depth, scale, material);
     }
+    return taps;
+}
+
+// Adds a level with depth weights, which the quad's pixels share.
+void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth, vec4 offsets,
+                      uint material) {
+    float scale = levelScale(level, depth);
+    Tap taps[4] = cornerTaps(level, corner, depth, material);
     vec2 fraction = corner.fraction;
     float step = 1.0 / float(1 << level);
     [[unroll]] for (int x = 0; x < 2; ++x) {
@@ -359,10 +371,10 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
     }
 }
 
-// The levels from 2 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
-void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, vec4 offsets,
+// The levels from 2 or more on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
+void addCoarseLevels(inout Sum sums[4], Mixture mixture, int finest, ivec2 region, ivec2 quad, float depth, vec4 offsets,
                      uint material) {
-    [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
+    [[dont_unroll]] for (int level = finest; level <= bankLevels; ++level) {
         vec3 weight = kernelWeight(mixture, level + 1);
         if (weight != vec3(0.0)) {
             Corner corner = levelCorner(level, region, quad);

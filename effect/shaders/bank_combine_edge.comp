@@ -42,8 +42,6 @@ vec4 blurPixel(ivec2 center, uint material) {
     float scale = 1.0 / (bankPixelDepthVariance * width * width);
     vec3 light = vec3(0.0);
     float area = 0.0;
-    float mass = 0.0;
-    float counted = 0.0;
     [[unroll]] for (int j = 0; j < 9; ++j) {
         ivec2 offset = ivec2(j % 3, j / 3) - 1;
         float kernel = (offset.x == 0 ? 0.5 : 0.25) * (offset.y == 0 ? 0.5 : 0.25);
@@ -55,13 +53,11 @@ vec4 blurPixel(ivec2 center, uint material) {
         if (separateMaterials) {
             taken = taken && exchanges(pixelMaterials[place], material);
         }
-        counted += taken ? countedWeight(kernel, weight, difference, width) : kernel;
         weight = taken ? weight : 0.0;
-        mass += weight;
         area += weight * pixelAreas[place];
         light += weight * pixelAreas[place] * tap.rgb;
     }
-    mass /= counted;
+    float mass = massOf(area);
     return vec4(light * (mass / max(area, bankLeastWeight)), mass);
 }
 
@@ -80,26 +76,20 @@ void addPixels(inout Sum sums[4], vec3 weight, Group group) {
     }
 }
 
-Tap loadTap(int index, float depth, float scale, uint material) {
-    return weightedTap(levelLights[index], fineSurfaces[index], depth, scale, material);
-}
-
-// Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
-void addFinestLevel(inout Sum sums[4], vec3 weight, Group group) {
-    float scale = levelScale(1, group.depth);
-    ivec2 texel = (group.quad - group.region) / 2;
-    Tap rows[3][2];
-    [[unroll]] for (int y = 0; y < 3; ++y) {
-        int index = fineIndex(texel + ivec2(0, y - 1));
-        Tap left = loadTap(index - 1, group.depth, scale, group.material);
-        Tap middle = loadTap(index, group.depth, scale, group.material);
-        Tap right = loadTap(index + 1, group.depth, scale, group.material);
-        rows[y][0] = mixTaps(middle, left, 0.25);
-        rows[y][1] = mixTaps(middle, right, 0.25);
-    }
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        addTap(sums[i], weight, mixTaps(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25),
-               group.depths[i] - group.depth, scale);
+// The levels whose texels are hardly larger than a pixel: every pixel looks from its own depth.
+void addOwnDepthLevels(inout Sum sums[4], Mixture mixture, Group group) {
+    [[dont_unroll]] for (int level = 1; level <= bankOwnDepthLevels; ++level) {
+        vec3 weight = kernelWeight(mixture, level + 1);
+        if (weight == vec3(0.0)) {
+            continue;
+        }
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            Corner corner = levelCorner(level, group.region, group.quad + ivec2(i & 1, i >> 1));
+            Tap taps[4] = cornerTaps(level, corner, group.depths[i], group.material);
+            Tap upper = mixTaps(taps[0], taps[1], corner.fraction.x);
+            Tap lower = mixTaps(taps[2], taps[3], corner.fraction.x);
+            addTap(sums[i], weight, mixTaps(upper, lower, corner.fraction.y), 0.0, levelScale(level, group.depths[i]));
+        }
     }
 }
 
@@ -108,8 +98,8 @@ void combineGroup(Group group) {
     Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
     vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), group.first);
     addPixels(sums, kernelWeight(mixture, 1), group);
-    addFinestLevel(sums, kernelWeight(mixture, 2), group);
-    addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
+    addOwnDepthLevels(sums, mixture, group);
+    addCoarseLevels(sums, mixture, bankOwnDepthLevels + 1, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
     storeGroup(group.quad, group.members, group.material, mixture.strength, own, sums);
 }
 

@@ -44,6 +44,11 @@ struct Block {
     }
 };
 
+// What a kernel's share of a pixel is multiplied by: Σ kernel · depth weight · area, which is 1 on a plane of any slope.
+double massOf(double area) {
+    return std::min(area, 1.0);
+}
+
 // Depth step to the next pixel along one axis, mm: the mean of both sides or, where one is a step to another surface,
 // the smaller. A side without a surface is null.
 double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* after, double width) {
@@ -177,12 +182,6 @@ void BankTwin::reduceLevel(int level) {
     }
 }
 
-// What a tap adds to the denominator: on the surface its weight, on another one the weight it would have had.
-double BankTwin::countedWeight(double kernel, double weight, double depthDifference, double width) const {
-    const double beyond = std::abs(depthDifference) / width - constants::bankMissingDepth;
-    return settings_.missingRule ? weight + std::clamp(beyond, 0.0, 1.0) * kernel : weight;
-}
-
 void BankTwin::blurLevel(int level) {
     TwinLevel<BlurredTexel>& to = blurred_[level];
     to.width = raw_[level].width;
@@ -214,13 +213,10 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
     const double width = texelWidth(level, depth);
     Rgb light{};
     double area = 0;
-    double mass = 0;
-    double counted = 0;
     for (int i = 0; i < 25; ++i) {
         const double kernel = binomial[i % 5] * binomial[i / 5];
         const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 - 2);
         if (tap == nullptr || tap->mass <= 0) {
-            counted += kernel;
             continue;
         }
         const double difference = tap->depth - depth;
@@ -230,16 +226,25 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
             light[channel] += weight * tap->light[channel];
         }
         area += weight * tap->area;
-        mass += weight * tap->mass;
-        counted += countedWeight(kernel, weight, difference, width);
     }
     BlurredTexel result;
     result.depth = depth;
-    result.mass = mass / std::max<double>(counted, constants::bankLeastWeight);
+    result.mass = massOf(area);
     for (int channel = 0; channel < 3; ++channel) {
         result.light[channel] = light[channel] / std::max<double>(area, constants::bankLeastWeight) * result.mass;
     }
     return result;
+}
+
+// Whether one of 2x2 texels of level 1 is empty.
+bool BankTwin::hasHole(int x, int y) const {
+    for (int i = 0; i < 4; ++i) {
+        const RawTexel* texel = raw_[1].at(x + i % 2, y + i / 2);
+        if (texel == nullptr || texel->mass <= 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // The texels of level 1 of a tile's upper or lower half and two more around agree in depth with their neighbours; so do
@@ -260,7 +265,10 @@ bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
             }
             const RawTexel* right = x < lastX ? raw_[1].at(x + 1, y) : nullptr;
             const RawTexel* below = y < lastY ? raw_[1].at(x, y + 1) : nullptr;
-            const double limit = constants::bankSmoothDepth * texelWidth(1, texel->depth);
+            // The shader asks by blocks of 2x2.
+            const bool besideHole = hasHole(firstX + ((x - firstX) & ~1), firstY + ((y - firstY) & ~1));
+            const double limit = (besideHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth) *
+                                 texelWidth(1, texel->depth);
             for (const RawTexel* next : {right, below}) {
                 if (next != nullptr && next->mass > 0 && std::abs(next->depth - texel->depth) > limit) {
                     return false;
@@ -304,7 +312,10 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
                 addPixels(sum, weights[1], x, y);
             }
             for (int level = 1; level <= bankLevels; ++level) {
-                addLevel(sum, weights[level + 1], level, x, y, {depth, smooth ? 0 : pixel->depth - depth, smooth});
+                const bool ownDepth = !smooth && level <= constants::bankOwnDepthLevels;
+                const Standpoint quad{depth, smooth ? 0 : pixel->depth - depth, smooth};
+                const Standpoint own{pixel->depth, 0, smooth};
+                addLevel(sum, weights[level + 1], level, x, y, ownDepth ? own : quad);
             }
             for (int channel = 0; channel < 3; ++channel) {
                 result_[scene_.index(x, y)][channel] = sum.mass[channel] > 0
@@ -359,17 +370,14 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
 
 void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
     constexpr double binomial[] = {0.25, 0.5, 0.25};
-    double areas = 0;
+    double area = 0;
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
     Rgb light{};
-    double mass = 0;
-    double counted = 0;
     for (int i = 0; i < 9; ++i) {
         const double kernel = binomial[i % 3] * binomial[i / 3];
         const RawTexel* tap = raw_[0].at(x + i % 3 - 1, y + i / 3 - 1);
         if (tap == nullptr || tap->mass <= 0) {
-            counted += kernel;
             continue;
         }
         const double difference = tap->depth - depth;
@@ -378,14 +386,13 @@ void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) cons
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += tapWeight * tap->light[channel];
         }
-        areas += tapWeight * tap->area;
-        mass += tapWeight;
-        counted += countedWeight(kernel, tapWeight, difference, width);
+        area += tapWeight * tap->area;
     }
+    const double mass = massOf(area);
     for (double& value : light) {
-        value *= mass / (counted * std::max<double>(areas, constants::bankLeastWeight));
+        value *= mass / std::max<double>(area, constants::bankLeastWeight);
     }
-    sum.add(weight, light, mass / counted);
+    sum.add(weight, light, mass);
 }
 
 void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const {

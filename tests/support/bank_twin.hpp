@@ -9,7 +9,6 @@ namespace nacre::tests {
 /// Switches off one ingredient at a time, to measure what it is worth.
 struct TwinSettings {
     bool areaWeights = true;
-    bool missingRule = true;
     bool smoothTiles = true;
 };
 
@@ -65,6 +64,7 @@ private:
     void reduceLevel(int level);
     void blurLevel(int level);
     BlurredTexel blurTexel(int level, int x, int y) const;
+    bool hasHole(int x, int y) const;
     bool isSmooth(int tileX, int tileY, int half) const;
     void combineQuad(int quadX, int quadY, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
@@ -73,7 +73,6 @@ private:
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
     double quadSlope(int x, int y, int dx, int dy) const;
-    double countedWeight(double kernel, double weight, double depthDifference, double texelWidth) const;
 
     const ScatterScene& scene_;
     TwinSettings settings_;
