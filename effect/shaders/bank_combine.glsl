@@ -371,10 +371,10 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
     }
 }
 
-// The levels from 2 or more on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
-void addCoarseLevels(inout Sum sums[4], Mixture mixture, int finest, ivec2 region, ivec2 quad, float depth, vec4 offsets,
+// The levels from 2 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
+void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, vec4 offsets,
                      uint material) {
-    [[dont_unroll]] for (int level = finest; level <= bankLevels; ++level) {
+    [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
         vec3 weight = kernelWeight(mixture, level + 1);
         if (weight != vec3(0.0)) {
             Corner corner = levelCorner(level, region, quad);

@@ -56,7 +56,7 @@ void main() {
         vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), 2 * texel + 1);
         addSlopePixels(sums, kernelWeight(mixture, 1), 2 * texel + 1, quad.beside);
         addFinestLevel(sums, kernelWeight(mixture, 2), texel);
-        addCoarseLevels(sums, mixture, 2, region, first, quad.depth, vec4(0.0), material);
+        addCoarseLevels(sums, mixture, region, first, quad.depth, vec4(0.0), material);
         storeGroup(first, members, material, mixture.strength, own, sums);
     }
     storeRest(first, ownMaterials);

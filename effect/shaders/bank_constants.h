@@ -26,9 +26,6 @@ const float bankBlurDepthVariance = 2.0f;
 const int bankShortBlocks = 3;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
 const float bankLevelDepthVariance = 8.0f;
-// The levels up to this one are combined in edge regions from every pixel's own depth, the others from the quad's first
-// pixel's. With 0: −0.3 to −0.9 dB on the models.
-const int bankOwnDepthLevels = 2;
 // Combination, per level: where the taps' weighted mean depth is `away` texel widths from the pixel's, its share falls by
 // g(away² / bankLevelAwayVariance).
 const float bankLevelAwayVariance = 1.5f;

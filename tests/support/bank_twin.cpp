@@ -44,7 +44,8 @@ struct Block {
     }
 };
 
-// What a kernel's share of a pixel is multiplied by: Σ kernel · depth weight · area, which is 1 on a plane of any slope.
+// What a kernel's share of a pixel is multiplied by: Σ kernel · depth weight · area, which is 1 on a plane of any
+// slope.
 double massOf(double area) {
     return std::min(area, 1.0);
 }
@@ -312,7 +313,7 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
                 addPixels(sum, weights[1], x, y);
             }
             for (int level = 1; level <= bankLevels; ++level) {
-                const bool ownDepth = !smooth && level <= constants::bankOwnDepthLevels;
+                const bool ownDepth = !smooth && level == 1;
                 const Standpoint quad{depth, smooth ? 0 : pixel->depth - depth, smooth};
                 const Standpoint own{pixel->depth, 0, smooth};
                 addLevel(sum, weights[level + 1], level, x, y, ownDepth ? own : quad);
