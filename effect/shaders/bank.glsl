@@ -15,7 +15,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std43
     uvec2 borrowedSurfaces[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) buffer BankQuads {
-    uvec2 quads[]; // 2x2 px each, as level 1 lies: depth; packQuad
+    uvec2 quads[]; // 2x2 px each, as level 1 lies: see Quad
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std430) buffer BankMaterials {
     uvec2 quadMaterials[]; // as quads: of the four pixels, only where they differ
@@ -25,7 +25,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
-    // Per tile: whether pixels receive light; then the list of smooth regions, then that of edge regions.
+    // Per tile: whether pixels have a material; then the list of smooth regions, then that of edge regions.
     uint tileEntries[];
 };
 
@@ -116,7 +116,7 @@ uint pixelMaterial(uvec2 materials, ivec2 local) {
     return (local.x & 1) == 0 ? words & 0xffffu : words >> 16;
 }
 
-// Levels are made of 2x2 whole tiles, level 6 of half of that; what lies outside the image is empty.
+// Levels are made of 2x2 whole tiles, level 6 of a texel for 4x4; what lies outside the image is empty.
 ivec2 levelExtent(int level) {
     return parameters.bankLevels[level].yz;
 }
