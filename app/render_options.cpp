@@ -24,9 +24,13 @@ template <typename Value> struct Named {
 };
 
 constexpr std::array techniques{
-    Named<Technique>{"default", Technique::Default},     Named<Technique>{"bank", Technique::Bank},
-    Named<Technique>{"separable", Technique::Separable}, Named<Technique>{"burley", Technique::Burley},
-    Named<Technique>{"thesis", Technique::Thesis},       Named<Technique>{"brute", Technique::Brute},
+    Named<Technique>{"default", Technique::Default},
+    Named<Technique>{"bank", Technique::Bank},
+    Named<Technique>{"bank-surfaces", Technique::BankSurfaces},
+    Named<Technique>{"separable", Technique::Separable},
+    Named<Technique>{"burley", Technique::Burley},
+    Named<Technique>{"thesis", Technique::Thesis},
+    Named<Technique>{"brute", Technique::Brute},
 };
 
 constexpr std::array aovs{

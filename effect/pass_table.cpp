@@ -22,10 +22,12 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
     {.name = "nacre bank areas", .bytes = bankAreaBytes},
     {.name = "nacre bank tiles", .bytes = bankTileBytes},
     {.name = "nacre bank materials", .bytes = bankQuadBytes},
+    {.name = "nacre bank second surfaces", .bytes = bankSecondBytes},
 }};
 
 const std::array<const Technique*, techniqueCount> techniques{
-    &separableTechnique, &bruteTechnique, &bankTechnique, &burleyTechnique, &thesisTechnique, &transmitTechnique};
+    &separableTechnique, &bruteTechnique,        &bankTechnique,    &burleyTechnique,
+    &thesisTechnique,    &bankSurfacesTechnique, &transmitTechnique};
 
 IntermediateSet Technique::uses() const {
     IntermediateSet set = 0;

@@ -25,6 +25,7 @@ enum class Intermediate : std::uint32_t {
     BankAreas = intermediateBankAreas,
     BankTiles = intermediateBankTiles,
     BankMaterials = intermediateBankMaterials,
+    BankSeconds = intermediateBankSeconds,
     Count
 };
 inline constexpr std::size_t intermediateCount = static_cast<std::size_t>(Intermediate::Count);
@@ -68,6 +69,7 @@ VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent);
 VkDeviceSize bankAreaBytes(VkExtent2D maxExtent);
+VkDeviceSize bankSecondBytes(VkExtent2D maxExtent);
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent);
 /// Fills ScatterParameters::bankLevels for a render area (scatter_bank.cpp).
 void setBankLevels(ScatterParameters& parameters, VkExtent2D area);
@@ -100,15 +102,16 @@ struct Technique {
     IntermediateSet uses() const;
 };
 
-extern const Technique separableTechnique; // scatter_separable.cpp
-extern const Technique bruteTechnique;     // scatter_brute.cpp
-extern const Technique bankTechnique;      // scatter_bank.cpp
-extern const Technique burleyTechnique;    // scatter_burley.cpp
-extern const Technique thesisTechnique;    // scatter_thesis.cpp
-extern const Technique transmitTechnique;  // transmit.cpp
+extern const Technique separableTechnique;    // scatter_separable.cpp
+extern const Technique bruteTechnique;        // scatter_brute.cpp
+extern const Technique bankTechnique;         // scatter_bank.cpp
+extern const Technique burleyTechnique;       // scatter_burley.cpp
+extern const Technique thesisTechnique;       // scatter_thesis.cpp
+extern const Technique bankSurfacesTechnique; // scatter_bank.cpp
+extern const Technique transmitTechnique;     // transmit.cpp
 
 /// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
-inline constexpr std::size_t scatterTechniqueCount = 5;
+inline constexpr std::size_t scatterTechniqueCount = 6;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;

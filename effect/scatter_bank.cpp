@@ -8,6 +8,9 @@
 #include "bank_combine_edge.spv.h"
 #include "bank_combine_smooth.spv.h"
 #include "bank_reduce.spv.h"
+#include "bank_surfaces_blur.spv.h"
+#include "bank_surfaces_combine_edge.spv.h"
+#include "bank_surfaces_reduce.spv.h"
 
 #include <algorithm>
 #include <array>
@@ -98,36 +101,50 @@ constexpr IntermediateSet raw = bit(Intermediate::BankRaw);
 constexpr IntermediateSet blurred = bit(Intermediate::BankBlurred) | bit(Intermediate::BankSurfaces);
 constexpr IntermediateSet quads = bit(Intermediate::BankQuads) | bit(Intermediate::BankMaterials);
 constexpr IntermediateSet areas = bit(Intermediate::BankAreas);
+constexpr IntermediateSet seconds = bit(Intermediate::BankSeconds);
 constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
 
-constexpr Pass passes[] = {
-    {.name = "nacre bank reduce",
-     .file = "bank_reduce",
-     .spirv = bank_reduce_spv,
-     .writes = raw | quads | areas | tiles,
-     .grid = reduceGrid,
-     .asksMaterials = true},
-    {.name = "nacre bank blur",
-     .file = "bank_blur",
-     .spirv = bank_blur_spv,
-     .reads = raw,
-     .writes = raw | blurred | tiles,
-     .grid = blurGrid,
-     .asksMaterials = true},
-    {.name = "nacre bank combine edge",
-     .file = "bank_combine_edge",
-     .spirv = bank_combine_edge_spv,
-     .reads = raw | blurred | quads | areas | tiles,
-     .indirect = Intermediate::BankTiles,
-     .indirectOffset = sizeof(BankDispatch),
-     .asksMaterials = true},
-    {.name = "nacre bank combine smooth",
-     .file = "bank_combine_smooth",
-     .spirv = bank_combine_smooth_spv,
-     .reads = raw | blurred | quads | tiles,
-     .indirect = Intermediate::BankTiles,
-     .indirectOffset = 0},
-};
+constexpr Pass reducePass{.name = "nacre bank reduce",
+                          .file = "bank_reduce",
+                          .spirv = bank_reduce_spv,
+                          .writes = raw | quads | areas | tiles,
+                          .grid = reduceGrid,
+                          .asksMaterials = true};
+constexpr Pass blurPass{.name = "nacre bank blur",
+                        .file = "bank_blur",
+                        .spirv = bank_blur_spv,
+                        .reads = raw,
+                        .writes = raw | blurred | tiles,
+                        .grid = blurGrid,
+                        .asksMaterials = true};
+constexpr Pass edgePass{.name = "nacre bank combine edge",
+                        .file = "bank_combine_edge",
+                        .spirv = bank_combine_edge_spv,
+                        .reads = raw | blurred | quads | areas | tiles,
+                        .indirect = Intermediate::BankTiles,
+                        .indirectOffset = sizeof(BankDispatch),
+                        .asksMaterials = true};
+constexpr Pass smoothPass{.name = "nacre bank combine smooth",
+                          .file = "bank_combine_smooth",
+                          .spirv = bank_combine_smooth_spv,
+                          .reads = raw | blurred | quads | tiles,
+                          .indirect = Intermediate::BankTiles,
+                          .indirectOffset = 0};
+constexpr Pass passes[] = {reducePass, blurPass, edgePass, smoothPass};
+
+// The same pass with second surfaces.
+constexpr Pass withSeconds(Pass pass, const char* file, std::span<const std::uint32_t> spirv) {
+    pass.file = file;
+    pass.spirv = spirv;
+    pass.reads |= seconds;
+    pass.writes |= pass.indirect == Intermediate::Count ? seconds : 0;
+    return pass;
+}
+
+constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce", bank_surfaces_reduce_spv),
+                                   withSeconds(blurPass, "bank_surfaces_blur", bank_surfaces_blur_spv),
+                                   withSeconds(edgePass, "bank_surfaces_combine_edge", bank_surfaces_combine_edge_spv),
+                                   smoothPass};
 
 } // namespace
 
@@ -143,6 +160,16 @@ VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent) {
     const VkExtent2D finest = levelExtent(maxExtent, 1);
     return VkDeviceSize{sizeof(uvec2)} * finest.width * finest.height;
+}
+
+// Of the levels that keep one, finest first.
+VkDeviceSize bankSecondBytes(VkExtent2D maxExtent) {
+    VkDeviceSize texels = 0;
+    for (int level = 1; level <= constants::bankSecondLevels; ++level) {
+        const VkExtent2D extent = levelExtent(maxExtent, level);
+        texels += VkDeviceSize{extent.width} * extent.height;
+    }
+    return 3 * sizeof(uvec2) * texels;
 }
 
 VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
@@ -173,5 +200,6 @@ void setBankLevels(ScatterParameters& parameters, VkExtent2D area) {
 }
 
 const Technique bankTechnique{"bank", passes, tableBytes, buildTable};
+const Technique bankSurfacesTechnique{"bank-surfaces", surfacesPasses, tableBytes, buildTable};
 
 } // namespace nacre::effect

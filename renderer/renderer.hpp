@@ -11,7 +11,7 @@
 namespace nacre::renderer {
 
 /// How the diffuse light of subsurface materials is spread.
-enum class Technique { Default, Bank, Separable, Burley, Thesis, Brute };
+enum class Technique { Default, Bank, BankSurfaces, Separable, Burley, Thesis, Brute };
 
 /// Images that can be read back. All but Color are `samples` times as wide and as high as the picture.
 enum class Output {

@@ -13,6 +13,8 @@ NacreTechnique convert(Technique technique) {
     switch (technique) {
     case Technique::Bank:
         return NACRE_TECHNIQUE_BANK;
+    case Technique::BankSurfaces:
+        return NACRE_TECHNIQUE_BANK_SURFACES;
     case Technique::Separable:
         return NACRE_TECHNIQUE_SEPARABLE;
     case Technique::Burley:

@@ -56,7 +56,8 @@ std::vector<QualityVariant> qualityVariants(const View& view, const Size& size) 
                             size});
     }
     for (const auto& [name, technique] :
-         {std::pair{"separable", Technique::Separable}, std::pair{"bank", Technique::Bank}}) {
+         {std::pair{"separable", Technique::Separable}, std::pair{"bank", Technique::Bank},
+          std::pair{"bank-surfaces", Technique::BankSurfaces}}) {
         for (const double share : pixelShares) {
             variants.push_back({{name, {.technique = technique}}, 100 * share, "% of the pixels", shrunk(size, share)});
         }

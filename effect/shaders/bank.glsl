@@ -23,16 +23,28 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std4
 layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) buffer BankAreas {
     uint quadAreas[]; // as quads: packAreas of the four pixels
 };
+layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) buffer BankSeconds {
+    // Three of each texel of levels 1 … secondLevels, only where it has a second surface (secondBit): the words of
+    // packRaw; after the blur, packBlurred.
+    uvec2 secondTexels[];
+};
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
     // Per tile: whether pixels have a material; then the list of smooth regions, then that of edge regions.
     uint tileEntries[];
 };
 
+// Levels up to this one keep two surfaces. Where materials are separate, they keep one.
+#ifdef SECOND_SURFACES
+const int secondLevels = separateMaterials ? 0 : bankSecondLevels;
+#else
+const int secondLevels = 0;
+#endif
 const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a side in each tile
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
-const uint massBits = 0x7fffu; // of a raw texel's last word; 0 = empty
+const uint secondBit = secondLevels > 0 ? 0x4000u : 0u; // of a raw texel's last word: it has a second surface
+const uint massBits = 0x7fffu & ~secondBit;             // there; 0 = empty
 const uint fullMass = 0x3c00u;
 const uint signBit = 0x80000000u;
 
@@ -70,7 +82,7 @@ uvec4 packRaw(RawTexel texel) {
 RawTexel unpackRaw(uvec4 words) {
     vec2 redGreen = unpackHalf2x16(words.x);
     vec2 blueArea = unpackHalf2x16(words.y);
-    float mass = unpackHalf2x16(words.w).x;
+    float mass = unpackHalf2x16(words.w & ~secondBit).x;
     return RawTexel(vec3(redGreen, blueArea.x), blueArea.y, abs(mass), uintBitsToFloat(words.z), words.w >> 16,
                     mass < 0.0);
 }
@@ -114,6 +126,10 @@ Quad unpackQuad(uvec2 words, uvec2 materials) {
 uint pixelMaterial(uvec2 materials, ivec2 local) {
     uint words = (local.y & 1) == 0 ? materials.x : materials.y;
     return (local.x & 1) == 0 ? words & 0xffffu : words >> 16;
+}
+
+bool keepsSeconds(int level) {
+    return secondLevels > 0 && level <= secondLevels;
 }
 
 // Levels are made of 2x2 whole tiles, level 6 of a texel for 4x4; what lies outside the image is empty.
@@ -216,13 +232,19 @@ bool givesLight(uint from, uint to) {
     return !separateMaterials || exchanges(from, to);
 }
 
+// Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
+float separationAt(int level, float nearest) {
+    float separation = level == 1 && secondLevels > 0 ? bankFinestSeparation : bankSurfaceSeparation;
+    return separation * texelWidth(level, nearest);
+}
+
 // Whether four texels all are on one surface, nearest to farthest depth, so that all of them are kept.
 bool isOneSurface(RawTexel texels[4], int level) {
     vec4 depths = vec4(texels[0].depth, texels[1].depth, texels[2].depth, texels[3].depth);
     float nearest = min(min(depths.x, depths.y), min(depths.z, depths.w));
     float farthest = max(max(depths.x, depths.y), max(depths.z, depths.w));
     float leastMass = min(min(texels[0].mass, texels[1].mass), min(texels[2].mass, texels[3].mass));
-    return leastMass > 0.0 && farthest - nearest <= bankSurfaceSeparation * texelWidth(level, nearest) &&
+    return leastMass > 0.0 && farthest - nearest <= separationAt(level, nearest) &&
            !separateMaterials;
 }
 
@@ -292,4 +314,51 @@ RawTexel reduceTexels(RawTexel texels[4], int level) {
         return mergeTexels(texels, bvec4(true));
     }
     return mergeTexels(texels, chooseSurface(texels, level));
+}
+
+// Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.
+vec2 depthRange(RawTexel texels[4], vec2 range) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        float depth = texels[i].depth;
+        range = texels[i].mass > 0.0 ? vec2(min(range.x, depth), max(range.y, depth)) : range;
+    }
+    return range;
+}
+
+const vec2 noRange = vec2(1e30, 0.0);
+
+// Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
+bvec4 nearerHalf(RawTexel texels[4], vec2 range) {
+    bvec4 result;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        result[i] = texels[i].mass > 0.0 && texels[i].depth - range.x <= range.y - texels[i].depth;
+    }
+    return result;
+}
+
+// A texel's two surfaces, the one with more mass first; the second is empty where all is one surface.
+struct Surfaces {
+    RawTexel first;
+    RawTexel second;
+};
+
+RawTexel joinTexels(RawTexel a, RawTexel b) {
+    float mass = a.mass + b.mass;
+    float depth = mass > 0.0 ? (a.mass * a.depth + b.mass * b.depth) / mass : 0.0;
+    return RawTexel(a.light + b.light, a.area + b.area, mass, depth, a.mass >= b.mass ? a.material : b.material,
+                    a.dropped || b.dropped);
+}
+
+// The next level's texel from four texels and their second surfaces.
+Surfaces reduceSurfaces(RawTexel firsts[4], RawTexel seconds[4], int level) {
+    vec2 range = depthRange(seconds, depthRange(firsts, noRange));
+    if (range.y - range.x <= separationAt(level, range.x)) {
+        RawTexel first = joinTexels(mergeTexels(firsts, bvec4(true)), mergeTexels(seconds, bvec4(true)));
+        return Surfaces(first, emptyTexel());
+    }
+    bvec4 nearFirsts = nearerHalf(firsts, range);
+    bvec4 nearSeconds = nearerHalf(seconds, range);
+    RawTexel near = joinTexels(mergeTexels(firsts, nearFirsts), mergeTexels(seconds, nearSeconds));
+    RawTexel far = joinTexels(mergeTexels(firsts, not(nearFirsts)), mergeTexels(seconds, not(nearSeconds)));
+    return near.mass >= far.mass ? Surfaces(near, far) : Surfaces(far, near);
 }

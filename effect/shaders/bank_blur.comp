@@ -17,6 +17,7 @@ const int pitch = side + 2 * halo;
 shared uvec2 lights[pitch * pitch];
 shared float depths[pitch * pitch]; // 0 = empty
 shared uint massesAndMaterials[pitch * pitch];
+shared uvec4 seconds[secondLevels > 0 ? pitch * pitch : 1]; // second surfaces of the texels that have one
 shared uint rough; // bits of roughness
 
 struct Block {
@@ -55,6 +56,7 @@ const uint roughUpper = 1u;
 const uint roughLower = 2u;
 const uint notFull = 4u;
 const uint anything = 8u;
+const uint anySecond = 16u;
 
 uint roughRows(int row) {
     return (row < side / 2 + 2 * halo ? roughUpper : 0u) | (row >= side / 2 ? roughLower : 0u);
@@ -64,7 +66,8 @@ uint roughRows(int row) {
 uint roughnessOf(uvec4 words, int index) {
     // The mass, a half: 1 is 0x3c00; with a sign it is dropped.
     return ((words.w & 0xffffu) == 0x3c00u ? 0u : notFull) |
-           ((words.w & 0x8000u) != 0u ? roughRows(index / pitch) : 0u) | (words.z != 0u ? anything : 0u);
+           ((words.w & 0x8000u) != 0u ? roughRows(index / pitch) : 0u) | (words.z != 0u ? anything : 0u) |
+           (secondLevels > 0 && (words.w & secondBit) != 0u ? anySecond : 0u);
 }
 
 bool isStepBetween(float a, float b, float limit) {
@@ -107,6 +110,10 @@ void storeShared(int index, uvec4 words) {
     massesAndMaterials[index] = words.w;
 }
 
+bool hasSecond(int index) {
+    return secondLevels > 0 && (massesAndMaterials[index] & secondBit) != 0u;
+}
+
 const int blockSteps = (pitch * pitch + threads - 1) / threads;
 
 ivec2 placeOf(Block block, int index) {
@@ -125,6 +132,10 @@ void loadBlock(Block block, int thread) {
         if (index < countOf(block)) {
             storeShared(index, words[i]);
             roughness |= roughnessOf(words[i], index);
+            if (hasSecond(index)) {
+                int second = 3 * texelIndex(block.level, placeOf(block, index));
+                seconds[index] = uvec4(secondTexels[second], secondTexels[second + 1]);
+            }
         }
     }
     noteRoughness(roughness);
@@ -174,6 +185,12 @@ RawTexel texelAt(int index) {
     return unpackRaw(uvec4(lights[index], floatBitsToUint(depths[index]), massesAndMaterials[index]));
 }
 
+// Where a texel's second kernel stands.
+BlurredTexel findSecond(int center) {
+    RawTexel own = unpackRaw(seconds[center]);
+    return BlurredTexel(vec3(0.0), 0.0, own.depth, own.material, true, true);
+}
+
 // Where a texel's kernel stands: its own surface or, where it is empty, its neighbours', so that light reaches across
 // small holes.
 BlurredTexel findSurface(int level, int center) {
@@ -221,20 +238,23 @@ void divide(inout BlurredTexel texel, Sums sums) {
     texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
 }
 
-// Blurs a texel, whatever is around it.
-BlurredTexel blurTexel(int level, int center) {
+// Blurs a texel on one of its surfaces, whatever is around it.
+BlurredTexel blurTexel(int level, int center, BlurredTexel surface) {
     const float binomial[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
-    BlurredTexel result = findSurface(level, center);
-    float width = texelWidth(level, result.depth);
+    float width = texelWidth(level, surface.depth);
+    bool withSeconds = (rough & anySecond) != 0u;
     Sums sums = Sums(vec3(0.0), 0.0);
     [[dont_unroll]] for (int y = 0; y < 5; ++y) {
         [[unroll]] for (int x = 0; x < 5; ++x) {
-            RawTexel tap = texelAt(center + x - halo + (y - halo) * pitch);
-            addTap(sums, tap, result, binomial[x] * binomial[y], width);
+            int index = center + x - halo + (y - halo) * pitch;
+            addTap(sums, texelAt(index), surface, binomial[x] * binomial[y], width);
+            if (secondLevels > 0 && withSeconds && hasSecond(index)) {
+                addTap(sums, unpackRaw(seconds[index]), surface, binomial[x] * binomial[y], width);
+            }
         }
     }
-    divide(result, sums);
-    return result;
+    divide(surface, sums);
+    return surface;
 }
 
 // Where a plain texel's kernel stands, and what scales squared depth differences from there.
@@ -317,6 +337,15 @@ void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     }
 }
 
+// A texel's surface, and its second one if it has one.
+void blurRough(Block block, ivec2 local, int center) {
+    storeBlurred(block, local, blurTexel(block.level, center, findSurface(block.level, center)));
+    if (hasSecond(center)) {
+        int second = 3 * texelIndex(block.level, block.first + local);
+        secondTexels[second + 2] = packBlurred(blurTexel(block.level, center, findSecond(center)));
+    }
+}
+
 // Puts a region on the list of the pipeline that combines it, and makes that pipeline's dispatch cover the list. `row`: 0
 // or 1, the block's upper or lower one.
 void listRegion(ivec2 block, int row) {
@@ -367,7 +396,7 @@ void main() {
     int center = (local.y + halo) * pitch + local.x + halo;
     if (separateMaterials || rough != anything) {
         [[dont_unroll]] for (int i = 0; i < own; ++i) {
-            storeBlurred(block, local + ivec2(0, i), blurTexel(block.level, center + i * pitch));
+            blurRough(block, local + ivec2(0, i), center + i * pitch);
         }
     } else if (isShort) {
         storeBlurred(block, local, blurPlain(block.level, center));

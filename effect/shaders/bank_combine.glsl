@@ -122,6 +122,9 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
     }
 }
 
+const float levelDepthVariance = secondLevels > 0 ? bankSurfacesLevelDepthVariance : bankLevelDepthVariance;
+const float levelAwayVariance = secondLevels > 0 ? bankSurfacesLevelAwayVariance : bankLevelAwayVariance;
+
 // A level's texel as a tap for a surface at `depth`: premultiplied by its depth weight, which is `total`.
 struct Tap {
     vec4 light; // w: mass
@@ -136,6 +139,10 @@ Tap weightedTap(uvec2 light, uvec2 surface, float depth, float scale, uint mater
     return Tap(weight * unpackLight(uvec2(light.x, light.y & ~signBit)), weight, weight * difference);
 }
 
+Tap joinTaps(Tap a, Tap b) {
+    return Tap(a.light + b.light, a.total + b.total, a.away + b.away);
+}
+
 Tap mixTaps(Tap a, Tap b, float fraction) {
     return Tap(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction), mix(a.away, b.away, fraction));
 }
@@ -145,14 +152,14 @@ Tap mixTaps(Tap a, Tap b, float fraction) {
 void addTap(inout Sum sum, vec3 weight, Tap tap, float offset, float scale) {
     float normalization = 1.0 / max(tap.total, bankLeastWeight);
     float away = tap.away * normalization - offset;
-    float share = falloff(away * away * scale * (bankLevelDepthVariance / bankLevelAwayVariance));
+    float share = falloff(away * away * scale * (levelDepthVariance / levelAwayVariance));
     add(sum, weight, tap.light * (share * normalization));
 }
 
-// 1 / (bankLevelDepthVariance · t²)
+// 1 / (levelDepthVariance · t²)
 float levelScale(int level, float depth) {
     float width = texelWidth(level, depth);
-    return 1.0 / (bankLevelDepthVariance * width * width);
+    return 1.0 / (levelDepthVariance * width * width);
 }
 
 // In edge regions that of level 1, too.
@@ -166,7 +173,12 @@ Tap[4] cornerTaps(int level, Corner corner, float depth, uint material) {
     Tap taps[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int index = corner.index + (i & 1) + (i >> 1) * levelPitch[level].x;
-        taps[i] = weightedTap(levelLights[index], levelSurface(index), depth, scale, material);
+        uvec2 surface = levelSurface(index);
+        taps[i] = weightedTap(levelLights[index], surface, depth, scale, material);
+        if (hasSecond(index, surface)) {
+            Tap second = weightedTap(secondLights[index], secondSurfaceWords[index], depth, scale, material);
+            taps[i] = joinTaps(taps[i], second);
+        }
     }
     return taps;
 }
@@ -187,10 +199,10 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
     }
 }
 
-// The levels from 2 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
+// The levels from 2 or, in edge regions with second surfaces, 3 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
 void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, vec4 offsets,
                      uint material) {
-    [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
+    [[dont_unroll]] for (int level = (isEdge ? ownDepthLevels : 1) + 1; level <= bankLevels; ++level) {
         vec3 weight = kernelWeight(mixture, level + 1);
         if (weight != vec3(0.0)) {
             Corner corner = levelCorner(level, region, quad);

@@ -76,14 +76,17 @@ void addPixels(inout Sum sums[4], vec3 weight, Group group) {
     }
 }
 
-// Level 1, whose texels are hardly larger than a pixel: every pixel looks from its own depth.
-void addFinestLevel(inout Sum sums[4], vec3 weight, Group group) {
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        Corner corner = levelCorner(1, group.region, group.quad + ivec2(i & 1, i >> 1));
-        Tap taps[4] = cornerTaps(1, corner, group.depths[i], group.material);
-        Tap upper = mixTaps(taps[0], taps[1], corner.fraction.x);
-        Tap lower = mixTaps(taps[2], taps[3], corner.fraction.x);
-        addTap(sums[i], weight, mixTaps(upper, lower, corner.fraction.y), 0.0, levelScale(1, group.depths[i]));
+// The levels whose texels are hardly larger than a pixel: every pixel looks from its own depth.
+void addFineLevels(inout Sum sums[4], Mixture mixture, Group group) {
+    [[dont_unroll]] for (int level = 1; level <= ownDepthLevels; ++level) {
+        vec3 weight = kernelWeight(mixture, level + 1);
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            Corner corner = levelCorner(level, group.region, group.quad + ivec2(i & 1, i >> 1));
+            Tap taps[4] = cornerTaps(level, corner, group.depths[i], group.material);
+            Tap upper = mixTaps(taps[0], taps[1], corner.fraction.x);
+            Tap lower = mixTaps(taps[2], taps[3], corner.fraction.x);
+            addTap(sums[i], weight, mixTaps(upper, lower, corner.fraction.y), 0.0, levelScale(level, group.depths[i]));
+        }
     }
 }
 
@@ -92,7 +95,7 @@ void combineGroup(Group group) {
     Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
     vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), group.first);
     addPixels(sums, kernelWeight(mixture, 1), group);
-    addFinestLevel(sums, kernelWeight(mixture, 2), group);
+    addFineLevels(sums, mixture, group);
     addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
     storeGroup(group.quad, group.members, group.material, mixture.strength, own, sums);
 }

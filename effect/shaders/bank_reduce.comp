@@ -11,6 +11,7 @@ const int side = tileSize / 2; // texels of level 1
 
 // Level 1; where the tile is not plain, each coarser level then stands at its first child's place.
 shared uvec4 texels[side * side];
+shared uvec4 seconds[secondLevels > 0 ? side * side : 1]; // their second surfaces, where they have one
 shared uvec4 plainTexels[4]; // level 3 of a plain tile
 // Of the tile's pixels and one around, mm; 0 where none receives light.
 const int pitch = tileSize + 2;
@@ -139,6 +140,7 @@ vec4 anyAreas(Block block, Sides sides) {
 // A texel of level 1 with what the combination wants to know of its pixels.
 struct Reduced {
     RawTexel texel;
+    RawTexel second; // its second surface
     vec2 slope; // depth steps from pixel to pixel, in pixel widths
     vec4 areas;
 };
@@ -149,7 +151,22 @@ Reduced reducePlain(Block block, Sides sides, float width) {
     vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
     vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
     RawTexel texel = RawTexel(0.25 * light, dot(areas, vec4(0.25)), 1.0, dot(depth, vec4(0.25)), block.material[0], false);
-    return Reduced(texel, steps * (0.5 / width), areas);
+    return Reduced(texel, emptyTexel(), steps * (0.5 / width), areas);
+}
+
+// Which pixels are on the surface that has more of them.
+bvec4 heavierHalf(RawTexel pixels[4]) {
+    vec2 range = depthRange(pixels, noRange);
+    bool isOne = range.y - range.x <= separationAt(1, range.x);
+    bvec4 near = nearerHalf(pixels, range);
+    bvec4 all;
+    float balance = 0.0;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        all[i] = pixels[i].mass > 0.0;
+        balance += near[i] ? pixels[i].mass : -pixels[i].mass;
+    }
+    bvec4 far = bvec4(uvec4(all) & uvec4(not(near)));
+    return isOne ? all : balance >= 0.0 ? near : far;
 }
 
 // Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
@@ -168,7 +185,14 @@ Reduced reduceAny(Block block, Sides sides) {
             pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
         }
     }
-    bvec4 kept = isOneSurface(pixels, 1) ? bvec4(true) : chooseSurface(pixels, 1);
+    bvec4 kept = bvec4(true);
+    result.second = emptyTexel();
+    if (secondLevels > 0) {
+        kept = heavierHalf(pixels);
+        result.second = mergeTexels(pixels, not(kept));
+    } else if (!isOneSurface(pixels, 1)) {
+        kept = chooseSurface(pixels, 1);
+    }
     result.texel = mergeTexels(pixels, kept);
     result.texel.dropped = result.texel.dropped || dropped;
     vec2 steps = vec2(0.0);
@@ -200,6 +224,25 @@ Reduced reduceBlock(Block block, int place) {
     return reduced;
 }
 
+// In shared memory, at its place there, and in the pyramid.
+void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel) {
+    int index = texelIndex(level, texel);
+    uvec4 packed = packRaw(surfaces.first);
+    if (keepsSeconds(level) && surfaces.second.mass > 0.0) {
+        packed.w |= secondBit;
+        uvec4 second = packRaw(surfaces.second);
+        seconds[place] = second;
+        secondTexels[3 * index] = second.xy;
+        secondTexels[3 * index + 1] = second.zw;
+    }
+    texels[place] = packed;
+    rawTexels[index] = packed;
+}
+
+RawTexel secondOf(int place) {
+    return (texels[place].w & secondBit) != 0u ? unpackRaw(seconds[place]) : emptyTexel();
+}
+
 void reduceLevel(int level, ivec2 tile, int thread) {
     int width = tileSize >> level;
     if (thread >= width * width) {
@@ -209,12 +252,15 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     int spacing = 1 << (level - 2); // between the children, in texels of level 1
     int first = (texel.y * side + texel.x) * 2 * spacing;
     RawTexel children[4];
+    RawTexel others[4];
     for (int i = 0; i < 4; ++i) {
-        children[i] = unpackRaw(texels[first + ((i & 1) + (i >> 1) * side) * spacing]);
+        int place = first + ((i & 1) + (i >> 1) * side) * spacing;
+        children[i] = unpackRaw(texels[place]);
+        others[i] = keepsSeconds(level) ? secondOf(place) : emptyTexel();
     }
-    uvec4 packed = packRaw(reduceTexels(children, level));
-    texels[first] = packed;
-    rawTexels[texelIndex(level, tile * width + texel)] = packed;
+    Surfaces surfaces = keepsSeconds(level) ? reduceSurfaces(children, others, level)
+                                                  : Surfaces(reduceTexels(children, level), emptyTexel());
+    storeSurfaces(surfaces, first, level, tile * width + texel);
 }
 
 // Sums of a plain tile's texels, which all are full.
@@ -324,10 +370,8 @@ void main() {
     depths[ring.place] = receivingDepth(ring.material, ring.pixel, ring.depth);
     barrier();
     Reduced reduced = reduceBlock(block, place);
-    uvec4 packed = packRaw(reduced.texel);
-    texels[thread] = packed;
+    storeSurfaces(Surfaces(reduced.texel, reduced.second), thread, 1, tile * side + texel);
     int index = texelIndex(1, tile * side + texel);
-    rawTexels[index] = packed;
     storeQuad(index, Quad(reduced.texel.depth, weightsBeside(reduced.slope),
                           uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16)));
     quadAreas[index] = packAreas(reduced.areas);

@@ -4,6 +4,8 @@
 
 layout(local_size_x = 16, local_size_y = 8) in;
 
+// In edge regions the levels up to this one are read from every pixel's own depth, the others from the quad's first pixel's.
+const int ownDepthLevels = secondLevels > 0 ? 2 : 1;
 const int threads = 128;
 const ivec2 regionSize = ivec2(32, 16); // px
 const ivec2 fineSize = regionSize / 2;  // texels of level 1, the quads
@@ -31,6 +33,10 @@ shared uvec2 levelLights[levelTexelCount]; // as blurredLights
 // Depth, and a raw texel's last word: mass (0 = no surface near) and material.
 shared uvec2 fineSurfaces[isEdge ? fineCount : 1];
 shared uvec2 coarseSurfaces[coarseCount];
+// As levelLights and their surfaces, of the texels that have a second one (secondBit).
+const int secondCount = levelStart[bankSecondLevels + 1];
+shared uvec2 secondLights[isEdge && secondLevels > 0 ? secondCount : 1];
+shared uvec2 secondSurfaceWords[isEdge && secondLevels > 0 ? secondCount : 1];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
@@ -122,6 +128,20 @@ void storeLevelTexel(int index, int level, uvec2 light) {
     }
 }
 
+// Whether a texel, whose place in shared memory and surface these are, has a second one there.
+bool hasSecond(int place, uvec2 surface) {
+    return isEdge && secondLevels > 0 && place < secondCount && (surface.y & secondBit) != 0u;
+}
+
+// A texel's surface, and its second one in edge regions. `index`: in the pyramid; `place`: in shared memory.
+uvec2 loadSurfaces(int index, int place, uvec2 own, uvec2 light) {
+    if (hasSecond(place, own)) {
+        secondSurfaceWords[place] = secondTexels[3 * index + 1];
+        secondLights[place] = secondTexels[3 * index + 2];
+    }
+    return surfaceOf(index, own, light);
+}
+
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
 Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
@@ -167,12 +187,12 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     }
     if (thread < coarseCount) {
         storeLevelTexel(fineCount + thread, level, coarseLight);
-        coarseSurfaces[thread] = surfaceOf(coarse, coarseSurface, coarseLight);
+        coarseSurfaces[thread] = loadSurfaces(coarse, fineCount + thread, coarseSurface, coarseLight);
     }
     if (isEdge) {
-        fineSurfaces[fineIndex(texel)] = surfaceOf(fine, fineSurface, fineLight);
+        fineSurfaces[fineIndex(texel)] = loadSurfaces(fine, fineIndex(texel), fineSurface, fineLight);
         if (ringThread < fineRingCount) {
-            fineSurfaces[fineIndex(fineRing)] = surfaceOf(ringIndex, ringSurface, ringLight);
+            fineSurfaces[fineIndex(fineRing)] = loadSurfaces(ringIndex, fineIndex(fineRing), ringSurface, ringLight);
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {

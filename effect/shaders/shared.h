@@ -67,6 +67,7 @@ NACRE_CONSTANT intermediateBankQuads = 6;
 NACRE_CONSTANT intermediateBankAreas = 7;
 NACRE_CONSTANT intermediateBankTiles = 8;
 NACRE_CONSTANT intermediateBankMaterials = 9;
+NACRE_CONSTANT intermediateBankSeconds = 10;
 
 NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
 

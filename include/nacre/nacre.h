@@ -97,6 +97,8 @@ typedef enum NacreTechnique {
                                         between taps in place of mixing; other materials are black unless depth tells
                                         them apart; exchange groups are not used; a surface's width on screen does not
                                         follow the material's millimetres */
+    NACRE_TECHNIQUE_BANK_SURFACES = 6, /**< NACRE_TECHNIQUE_BANK that keeps two surfaces where one is in front of another:
+                                            more accurate at folds and thin parts, half as long again there */
     NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
 } NacreTechnique;
 

@@ -35,7 +35,7 @@ extern "C" {
 #endif
 
 /** Transmission, which the functions below take beside the techniques of scatter. */
-#define NACRE_TECHNIQUE_TRANSMIT ((NacreTechnique)6)
+#define NACRE_TECHNIQUE_TRANSMIT ((NacreTechnique)7)
 
 /** Where messages go. */
 typedef struct NacreMessages {

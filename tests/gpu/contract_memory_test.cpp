@@ -124,8 +124,9 @@ TEST_F(MemoryTest, IdsMayLieAnywhere) {
         input_.materialId[i] = static_cast<std::uint16_t>(1 + i / 4 % 2);
         far.materialId[i] = i / 4 % 2 == 0 ? 65535 : 300;
     }
-    for (const NacreTechnique technique : {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK,
-                                           NACRE_TECHNIQUE_BURLEY, NACRE_TECHNIQUE_THESIS}) {
+    for (const NacreTechnique technique :
+         {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK, NACRE_TECHNIQUE_BURLEY,
+          NACRE_TECHNIQUE_THESIS, NACRE_TECHNIQUE_BANK_SURFACES}) {
         EXPECT_EQ(sparse.scatter(far, technique), dense.scatter(input_, technique)) << nacreTechniqueString(technique);
     }
     // Ids that were never set are no subsurface.

@@ -12,8 +12,9 @@ namespace {
 
 constexpr VkExtent2D extent{72, 40};
 constexpr VkRect2D part{{5, 3}, {50, 33}};
-constexpr NacreTechnique scatterTechniques[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK,
-                                                NACRE_TECHNIQUE_BURLEY, NACRE_TECHNIQUE_THESIS};
+constexpr NacreTechnique scatterTechniques[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE,
+                                                NACRE_TECHNIQUE_BANK,      NACRE_TECHNIQUE_BURLEY,
+                                                NACRE_TECHNIQUE_THESIS,    NACRE_TECHNIQUE_BANK_SURFACES};
 
 /// Two materials and a background, lit in stripes, on a plane that leans away and has a step in it.
 ScatterInput scene(bool everything) {
@@ -186,7 +187,7 @@ TEST_F(PartsTest, ListsNameWhatAContextHas) {
         EXPECT_EQ(nacreGetPasses(NACRE_TECHNIQUE_BANK, wrong, &count, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
         EXPECT_EQ(nacreGetBindings(NACRE_TECHNIQUE_BANK, wrong, &count, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
     }
-    EXPECT_EQ(nacreGetPasses(static_cast<NacreTechnique>(7), extent, &count, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(nacreGetPasses(static_cast<NacreTechnique>(8), extent, &count, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(nacreGetPasses(NACRE_TECHNIQUE_BANK, extent, nullptr, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
 }
 

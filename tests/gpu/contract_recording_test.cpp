@@ -83,8 +83,8 @@ struct Frame {
     NacreTransmitInfo transmit{};
 };
 
-constexpr NacreTechnique all[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK,
-                                  NACRE_TECHNIQUE_BURLEY, NACRE_TECHNIQUE_THESIS};
+constexpr NacreTechnique all[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE,  NACRE_TECHNIQUE_BANK,
+                                  NACRE_TECHNIQUE_BURLEY,    NACRE_TECHNIQUE_THESIS, NACRE_TECHNIQUE_BANK_SURFACES};
 
 class RecordingTest : public GpuTest {
 protected:

@@ -4,6 +4,7 @@
 #include "tests/gpu/support/effect.hpp"
 #include "tests/support/scatter_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -15,7 +16,7 @@ using namespace nacre::tests;
 namespace {
 
 constexpr NacreTechnique techniques[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE, NACRE_TECHNIQUE_BANK,
-                                         NACRE_TECHNIQUE_BURLEY};
+                                         NACRE_TECHNIQUE_BURLEY, NACRE_TECHNIQUE_BANK_SURFACES};
 
 class ScatterTest : public GpuTest, public testing::WithParamInterface<NacreTechnique> {
 protected:
@@ -328,7 +329,10 @@ TEST_P(ScatterTest, AlbedoAndStrengthAreApplied) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, ScatterTest, testing::ValuesIn(techniques),
-                         [](const auto& technique) { return std::string(nacreTechniqueString(technique.param)); });
+INSTANTIATE_TEST_SUITE_P(Techniques, ScatterTest, testing::ValuesIn(techniques), [](const auto& technique) {
+    std::string name = nacreTechniqueString(technique.param);
+    std::ranges::replace(name, '-', '_');
+    return name;
+});
 
 } // namespace

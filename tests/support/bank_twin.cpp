@@ -20,15 +20,26 @@ double falloff(double q) {
     return std::pow(std::max(0.0, 1 - q / 4), 4);
 }
 
-// What a 2x2 block of texels becomes: those of one surface.
+// What a 2x2 block of texels becomes: those of one surface. Levels that keep a second surface have up to eight.
 struct Block {
-    std::array<const RawTexel*, 4> texels{};
+    std::vector<const RawTexel*> texels;
+    double nearest = 1e300;
+    double farthest = 0;
+
+    void add(const RawTexel* texel) {
+        if (texel != nullptr && texel->mass > 0) {
+            texels.push_back(texel);
+            nearest = std::min(nearest, texel->depth);
+            farthest = std::max(farthest, texel->depth);
+        }
+    }
 
     template <typename Keep> RawTexel sum(Keep keep) const {
         RawTexel result;
         double depth = 0;
         for (const RawTexel* texel : texels) {
-            if (texel == nullptr || texel->mass <= 0 || !keep(*texel)) {
+            if (!keep(*texel)) {
+                result.dropped = true;
                 continue;
             }
             for (int channel = 0; channel < 3; ++channel) {
@@ -42,6 +53,8 @@ struct Block {
         result.depth = result.mass > 0 ? depth / result.mass : 0;
         return result;
     }
+
+    bool isNear(const RawTexel& texel) const { return texel.depth - nearest <= farthest - texel.depth; }
 };
 
 // What a kernel's share of a pixel is multiplied by: Σ kernel · depth weight · area, which is 1 on a plane of any
@@ -148,75 +161,90 @@ double BankTwin::smoothShare() const {
     return static_cast<double>(smooth) / static_cast<double>(std::max<std::ptrdiff_t>(smooth + edge, 1));
 }
 
+bool BankTwin::hasSeconds(int level) const {
+    return settings_.secondSurfaces && level >= 1 && level <= constants::bankSecondLevels;
+}
+
 void BankTwin::reduceLevel(int level) {
     const TwinLevel<RawTexel>& from = raw_[level - 1];
     TwinLevel<RawTexel>& to = raw_[level];
+    TwinLevel<RawTexel>& seconds = rawSeconds_[level];
     // Whole tiles: what lies outside the image is empty.
     to.width = level == 1 ? tilesX_ * tileSize / 2 : (from.width + 1) / 2;
     to.height = level == 1 ? tilesY_ * tileSize / 2 : (from.height + 1) / 2;
-    for (int y = 0; y < to.height; ++y) {
-        for (int x = 0; x < to.width; ++x) {
-            Block block;
-            double nearest = 1e300;
-            double farthest = 0;
-            for (int i = 0; i < 4; ++i) {
-                block.texels[i] = from.at(2 * x + (i & 1), 2 * y + (i >> 1));
-                if (block.texels[i] != nullptr && block.texels[i]->mass > 0) {
-                    nearest = std::min(nearest, block.texels[i]->depth);
-                    farthest = std::max(farthest, block.texels[i]->depth);
-                }
+    seconds.width = to.width;
+    seconds.height = to.height;
+    const bool finest = level == 1 && settings_.secondSurfaces;
+    const double separation = finest ? constants::bankFinestSeparation : constants::bankSurfaceSeparation;
+    for (int i = 0; i < to.width * to.height; ++i) {
+        Block block;
+        for (int child = 0; child < 4; ++child) {
+            const int x = 2 * (i % to.width) + (child & 1);
+            const int y = 2 * (i / to.width) + (child >> 1);
+            block.add(from.at(x, y));
+            if (hasSeconds(level - 1) && hasSeconds(level)) {
+                block.add(rawSeconds_[level - 1].at(x, y));
             }
-            if (farthest == 0) {
-                to.texels.push_back({});
-                continue;
-            }
-            const double separation = constants::bankSurfaceSeparation * texelWidth(level, nearest);
-            RawTexel texel = block.sum([](const RawTexel&) { return true; });
-            if (farthest - nearest > separation) {
-                const RawTexel front = block.sum([&](const RawTexel& t) { return t.depth - nearest <= separation; });
-                const RawTexel back = block.sum([&](const RawTexel& t) { return farthest - t.depth <= separation; });
-                texel = front.mass >= back.mass ? front : back;
-                texel.dropped = true;
-            }
-            to.texels.push_back(texel);
         }
+        const double limit = separation * texelWidth(level, block.nearest);
+        RawTexel texel = block.sum([](const RawTexel&) { return true; });
+        RawTexel second;
+        if (block.farthest - block.nearest > limit && hasSeconds(level)) {
+            texel = block.sum([&](const RawTexel& t) { return block.isNear(t); });
+            second = block.sum([&](const RawTexel& t) { return !block.isNear(t); });
+            if (texel.mass < second.mass) {
+                std::swap(texel, second);
+            }
+        } else if (block.farthest - block.nearest > limit) {
+            const RawTexel front = block.sum([&](const RawTexel& t) { return t.depth - block.nearest <= limit; });
+            const RawTexel back = block.sum([&](const RawTexel& t) { return block.farthest - t.depth <= limit; });
+            texel = front.mass >= back.mass ? front : back;
+        }
+        to.texels.push_back(texel);
+        seconds.texels.push_back(second);
     }
 }
 
 void BankTwin::blurLevel(int level) {
     TwinLevel<BlurredTexel>& to = blurred_[level];
-    to.width = raw_[level].width;
-    to.height = raw_[level].height;
+    TwinLevel<BlurredTexel>& seconds = blurredSeconds_[level];
+    seconds.width = to.width = raw_[level].width;
+    seconds.height = to.height = raw_[level].height;
     for (int y = 0; y < to.height; ++y) {
         for (int x = 0; x < to.width; ++x) {
+            const RawTexel& second = *rawSeconds_[level].at(x, y);
             to.texels.push_back(blurTexel(level, x, y));
+            seconds.texels.push_back(second.mass > 0 ? blurAt(level, x, y, second.depth) : BlurredTexel{});
         }
     }
 }
 
 BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
-    constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
     const TwinLevel<RawTexel>& raw = raw_[level];
-    double depth = raw.at(x, y)->depth;
-    if (raw.at(x, y)->mass <= 0) { // an empty texel stands on the surface its neighbours are on
-        double mass = 0;
-        double sum = 0;
-        for (int i = 0; i < 9; ++i) {
-            const RawTexel* tap = raw.at(x + i % 3 - 1, y + i / 3 - 1);
-            mass += tap != nullptr ? tap->mass : 0;
-            sum += tap != nullptr ? tap->mass * tap->depth : 0;
-        }
-        if (mass <= 0) {
-            return {};
-        }
-        depth = sum / mass;
+    if (raw.at(x, y)->mass > 0) {
+        return blurAt(level, x, y, raw.at(x, y)->depth);
     }
+    // An empty texel stands on the surface its neighbours are on.
+    double mass = 0;
+    double sum = 0;
+    for (int i = 0; i < 9; ++i) {
+        const RawTexel* tap = raw.at(x + i % 3 - 1, y + i / 3 - 1);
+        mass += tap != nullptr ? tap->mass : 0;
+        sum += tap != nullptr ? tap->mass * tap->depth : 0;
+    }
+    return mass > 0 ? blurAt(level, x, y, sum / mass) : BlurredTexel{};
+}
+
+// A texel's kernel where it stands on a surface at this depth.
+BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
+    constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
     const double width = texelWidth(level, depth);
     Rgb light{};
     double area = 0;
-    for (int i = 0; i < 25; ++i) {
-        const double kernel = binomial[i % 5] * binomial[i / 5];
-        const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 - 2);
+    for (int i = 0; i < 50; ++i) {
+        const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
+        const double kernel = binomial[i % 5] * binomial[i / 5 % 5];
+        const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2);
         if (tap == nullptr || tap->mass <= 0) {
             continue;
         }
@@ -283,8 +311,8 @@ bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
     return settings_.smoothTiles;
 }
 
-// The pixels of a 2x2 quad that have one material and lie on one surface share their weights and their texels' depth
-// weights, taken at the first of them.
+// The pixels of a 2x2 quad that have one material and lie on one surface share their weights, taken at the first of
+// them, and on the coarser levels their texels' depth weights.
 void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
     std::array<bool, 4> done{};
     for (int leader = 0; leader < 4; ++leader) {
@@ -313,7 +341,7 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
                 addPixels(sum, weights[1], x, y);
             }
             for (int level = 1; level <= bankLevels; ++level) {
-                const bool ownDepth = !smooth && level == 1;
+                const bool ownDepth = !smooth && level <= (settings_.secondSurfaces ? 2 : 1);
                 const Standpoint quad{depth, smooth ? 0 : pixel->depth - depth, smooth};
                 const Standpoint own{pixel->depth, 0, smooth};
                 addLevel(sum, weights[level + 1], level, x, y, ownDepth ? own : quad);
@@ -400,6 +428,10 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
     const TwinLevel<BlurredTexel>& blurred = blurred_[level];
     const double width = texelWidth(level, from.depth);
     const bool plain = from.smooth && level == 1;
+    const double depthVariance =
+        settings_.secondSurfaces ? constants::bankSurfacesLevelDepthVariance : constants::bankLevelDepthVariance;
+    const double awayVariance =
+        settings_.secondSurfaces ? constants::bankSurfacesLevelAwayVariance : constants::bankLevelAwayVariance;
     const double positionX = (x + 0.5) / (1 << level) - 0.5;
     const double positionY = (y + 0.5) / (1 << level) - 0.5;
     const int firstX = static_cast<int>(std::floor(positionX));
@@ -410,13 +442,13 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
     double mass = 0;
     double total = 0;
     double away = 0; // of the texels' surface from the pixel's, mm
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < (from.smooth ? 4 : 8); ++i) {
         const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
-        const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
-        const BlurredTexel& tap = *blurred.at(tapX, tapY);
-        double tapWeight = (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 == 1 ? fractionY : 1 - fractionY);
+        const int tapY = std::clamp(firstY + i / 2 % 2, 0, blurred.height - 1);
+        const BlurredTexel& tap = *(i < 4 ? blurred : blurredSeconds_[level]).at(tapX, tapY);
+        double tapWeight = (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 % 2 == 1 ? fractionY : 1 - fractionY);
         const double difference = plain ? 0 : tap.depth - from.depth;
-        const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
+        const double q = difference * difference / (depthVariance * width * width);
         tapWeight *= plain || tap.depth > 0 ? falloff(q) : 0;
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += tapWeight * tap.light[channel];
@@ -427,7 +459,7 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
     }
     total = std::max<double>(total, constants::bankLeastWeight);
     const double distance = (away / total - from.offset) / width;
-    const double share = falloff(distance * distance / constants::bankLevelAwayVariance);
+    const double share = falloff(distance * distance / awayVariance);
     for (double& value : light) {
         value *= share / total;
     }

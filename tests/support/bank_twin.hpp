@@ -9,6 +9,7 @@ namespace nacre::tests {
 /// Switches off one ingredient at a time, to measure what it is worth.
 struct TwinSettings {
     bool areaWeights = true;
+    bool secondSurfaces = false; ///< as `bank-surfaces` keeps them
     bool smoothTiles = true;
 };
 
@@ -61,9 +62,11 @@ private:
     };
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
+    bool hasSeconds(int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
     BlurredTexel blurTexel(int level, int x, int y) const;
+    BlurredTexel blurAt(int level, int x, int y, double depth) const;
     bool hasHole(int x, int y) const;
     bool isSmooth(int tileX, int tileY, int half) const;
     void combineQuad(int quadX, int quadY, bool smooth);
@@ -77,8 +80,10 @@ private:
     const ScatterScene& scene_;
     TwinSettings settings_;
     std::vector<BankTable> tables_;
-    std::array<TwinLevel<RawTexel>, bankLevels + 1> raw_; ///< level 0 is the image
+    std::array<TwinLevel<RawTexel>, bankLevels + 1> raw_;        ///< level 0 is the image
+    std::array<TwinLevel<RawTexel>, bankLevels + 1> rawSeconds_; ///< of the levels that keep a second surface
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurred_;
+    std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurredSeconds_;
     int tilesX_ = 0;
     int tilesY_ = 0;
     std::vector<int> regionKinds_; ///< two a tile, 32x16 px: 0 empty, 1 smooth, 2 edge

@@ -71,7 +71,8 @@ static int fillTable(NacreTechnique technique) {
 
 int main(void) {
     const NacreTechnique techniques[] = {NACRE_TECHNIQUE_SEPARABLE, NACRE_TECHNIQUE_BRUTE,  NACRE_TECHNIQUE_BANK,
-                                         NACRE_TECHNIQUE_BURLEY,    NACRE_TECHNIQUE_THESIS, NACRE_TECHNIQUE_TRANSMIT};
+                                         NACRE_TECHNIQUE_BURLEY,    NACRE_TECHNIQUE_THESIS, NACRE_TECHNIQUE_BANK_SURFACES,
+                                         NACRE_TECHNIQUE_TRANSMIT};
     size_t i;
     for (i = 0; i < sizeof(techniques) / sizeof(techniques[0]); ++i) {
         if (!listPasses(techniques[i]) || !fillTable(techniques[i])) {
