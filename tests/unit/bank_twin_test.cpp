@@ -10,36 +10,37 @@
 namespace nacre::tests {
 namespace {
 
-// Kinds of scene × footprints of 4, 20 and 60 px. Two seeds; the constants were chosen on the first alone.
-void expectCloseness(const TwinSettings& settings, double least, double leastMean) {
-    for (const std::uint32_t seed : {1u, 7u}) {
-        double sum = 0;
-        int cases = 0;
-        for (const SceneKind kind : allSceneKinds) {
-            for (const double footprint : {4.0, 20.0, 60.0}) {
-                const ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .seed = seed});
-                const std::vector<ReferencePixel> reference = scatterReference(scene, 7);
-                const BankTwin twin(scene, settings);
-                const double quality = psnr(scene, reference, twin.result());
-                std::printf("seed %u %-10s %.1f dB, largest error %.3f, unfiltered %.1f dB\n", seed, scene.name.c_str(),
-                            quality, largestError(scene, reference, twin.result()),
-                            psnr(scene, reference, scene.irradiance));
-                EXPECT_GE(quality, least) << scene.name << " seed " << seed;
-                sum += quality;
-                ++cases;
-            }
+// Kinds of scene × footprints of 4, 20 and 60 px.
+void expectCloseness(std::uint32_t seed, const TwinSettings& settings, double least, double leastMean) {
+    double sum = 0;
+    int cases = 0;
+    for (const SceneKind kind : allSceneKinds) {
+        for (const double footprint : {4.0, 20.0, 60.0}) {
+            const ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .seed = seed});
+            const std::vector<ReferencePixel> reference = scatterReference(scene, 7);
+            const BankTwin twin(scene, settings);
+            const double quality = psnr(scene, reference, twin.result());
+            std::printf("seed %u %-10s %.1f dB, largest error %.3f, unfiltered %.1f dB\n", seed, scene.name.c_str(),
+                        quality, largestError(scene, reference, twin.result()),
+                        psnr(scene, reference, scene.irradiance));
+            EXPECT_GE(quality, least) << scene.name << " seed " << seed;
+            sum += quality;
+            ++cases;
         }
-        std::printf("seed %u mean %.2f dB\n", seed, sum / cases);
-        EXPECT_GE(sum / cases, leastMean) << "seed " << seed;
     }
+    std::printf("seed %u mean %.2f dB\n", seed, sum / cases);
+    EXPECT_GE(sum / cases, leastMean) << "seed " << seed;
 }
 
+// Two seeds; the constants were chosen on the first alone.
 TEST(BankTwin, IsCloseToTheReference) {
-    expectCloseness({}, 40, 50);
+    expectCloseness(1, {}, 40, 50);
+    expectCloseness(7, {}, 40, 50);
 }
 
+// The first seed is bank_quality_test's.
 TEST(BankTwin, IsCloserWithSecondSurfaces) {
-    expectCloseness({.secondSurfaces = true}, 42, 53);
+    expectCloseness(7, {.secondSurfaces = true}, 42, 53);
 }
 
 // What does not scatter never enters, however bright.
