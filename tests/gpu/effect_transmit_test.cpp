@@ -1,6 +1,7 @@
 // Transmit against closed forms: a slab lit from behind by directional, spot and point lights.
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
+#include "tests/support/vector3.hpp"
 
 #include <cmath>
 #include <limits>
@@ -10,23 +11,7 @@ using namespace nacre::tests;
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector operator+(const Vector& a, const Vector& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector operator*(double s, const Vector& a) {
-    return {s * a[0], s * a[1], s * a[2]};
-}
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vector normalized(const Vector& a) {
-    return 1 / std::sqrt(dot(a, a)) * a;
-}
+using Vector = Vector3<double>;
 
 /// Three axes of a camera and a light that face each other: the light is 1 m from the camera along -z.
 struct Frame {

@@ -1,4 +1,5 @@
 #include "tests/gpu/timing/transmit_scene.hpp"
+#include "tests/support/vector3.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,26 +8,7 @@
 namespace nacre::tests {
 namespace {
 
-using Vector = std::array<float, 3>;
-
-Vector operator+(const Vector& a, const Vector& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vector operator*(float s, const Vector& a) {
-    return {s * a[0], s * a[1], s * a[2]};
-}
-float dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vector normalized(const Vector& a) {
-    return 1 / std::sqrt(dot(a, a)) * a;
-}
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using Vector = Vector3<float>;
 
 constexpr float middle = 400; // mm before the camera
 constexpr float wall = 480;
@@ -93,8 +75,8 @@ ScatterInput makeInput(const Bodies& bodies, VkExtent2D extent) {
     forRows(extent.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < extent.width; ++x) {
             const Vector direction = normalized(
-                {(static_cast<float>(x) + 0.5f - 0.5f * static_cast<float>(extent.width)) / focalLength,
-                 (0.5f * static_cast<float>(extent.height) - static_cast<float>(y) - 0.5f) / focalLength, -1});
+                Vector{(static_cast<float>(x) + 0.5f - 0.5f * static_cast<float>(extent.width)) / focalLength,
+                       (0.5f * static_cast<float>(extent.height) - static_cast<float>(y) - 0.5f) / focalLength, -1});
             int body = -1;
             const float distance = bodies.distance({{}, direction}, &body);
             const std::size_t i = input.index(x, y);
