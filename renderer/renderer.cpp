@@ -166,7 +166,7 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
                                       {settings.width, settings.height});
                    })),
       timer(gpu) {
-    subsurface.prepareSettings(settings);
+    subsurface.prepareSettings(gpu, settings);
     if (settings.copyFloor) {
         copyFloor.emplace(gpu, gbuffer, lighting.irradiance(), nearest);
         report.copyBytes = copyFloor->bytes();
@@ -301,7 +301,7 @@ const FrameReport& Renderer::report() const {
 }
 
 void Renderer::setEffect(const EffectSettings& settings) {
-    guard([&] { implementation_->subsurface.prepareSettings(settings); });
+    guard([&] { implementation_->subsurface.prepareSettings(implementation_->gpu, settings); });
     static_cast<EffectSettings&>(implementation_->settings) = settings;
 }
 
@@ -312,7 +312,7 @@ void Renderer::setMaterials(const std::vector<Material>& materials) {
     }
     guard([&] {
         implementation_->subsurface.setMaterials(materials);
-        implementation_->subsurface.prepareSettings(implementation_->settings);
+        implementation_->subsurface.prepareSettings(implementation_->gpu, implementation_->settings);
     });
 }
 

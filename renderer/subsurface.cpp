@@ -29,6 +29,11 @@ NacreTechnique convert(Technique technique) {
     return NACRE_TECHNIQUE_DEFAULT;
 }
 
+/// All but bank-surfaces, whose memory and pipelines few pictures need.
+constexpr std::uint32_t startingTechniques = 1u << NACRE_TECHNIQUE_DEFAULT | 1u << NACRE_TECHNIQUE_BANK |
+                                             1u << NACRE_TECHNIQUE_SEPARABLE | 1u << NACRE_TECHNIQUE_BURLEY |
+                                             1u << NACRE_TECHNIQUE_THESIS | 1u << NACRE_TECHNIQUE_BRUTE;
+
 void copy(float (&target)[3], const glm::vec3& value) {
     std::copy_n(glm::value_ptr(value), 3, target);
 }
@@ -108,7 +113,7 @@ vk::ImageUsageFlags effectUsage(NacreImageSlot slot) {
 
 Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
                        const std::vector<PlacedLight>& lights)
-    : info_(info), message_(std::make_unique<std::string>()) {
+    : info_(info), materials_(materials), techniques_(startingTechniques), message_(std::make_unique<std::string>()) {
     std::transform(lights.begin(), lights.end(), std::back_inserter(lights_),
                    [](const PlacedLight& light) { return convert(light); });
     constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
@@ -117,23 +122,28 @@ Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& 
     thickness_ = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, info.extent, NACRE_IMAGE_THICKNESS_OUT);
     translucencies_ = Buffer(gpu, "translucencies", (materials.size() + 1) * sizeof(float),
                              vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
+    createContext(gpu);
+    setMaterials(materials);
+}
+
+void Subsurface::createContext(Gpu& gpu) {
     NacreContextInfo contextInfo{};
     contextInfo.headerVersion = NACRE_HEADER_VERSION;
     contextInfo.instance = *gpu.instance;
     contextInfo.physicalDevice = *gpu.physicalDevice;
     contextInfo.device = *gpu.device;
     contextInfo.getInstanceProcAddr = gpu.context.getDispatcher()->vkGetInstanceProcAddr;
-    contextInfo.maxExtent = info.extent;
-    contextInfo.framesInFlight = info.framesInFlight;
+    contextInfo.maxExtent = info_.extent;
+    contextInfo.techniques = techniques_;
+    contextInfo.framesInFlight = info_.framesInFlight;
     contextInfo.recordsPerFrame = 1;
-    contextInfo.maxMaterials = std::max(1u, static_cast<std::uint32_t>(materials.size()));
-    contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights.size()));
+    contextInfo.maxMaterials = std::max(1u, static_cast<std::uint32_t>(materials_.size()));
+    contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights_.size()));
     contextInfo.messageCallback = keepMessage;
     contextInfo.userData = message_.get();
     NacreContext context = nullptr;
     check(nacreCreateContext(&contextInfo, &context));
     context_.reset(context);
-    setMaterials(materials);
 }
 
 void Subsurface::check(NacreResult result) const {
@@ -157,7 +167,7 @@ void Subsurface::setMaterials(const std::vector<Material>& materials) {
     if (!converted.empty()) {
         check(nacreSetMaterials(context_.get(), 1, static_cast<std::uint32_t>(converted.size()), converted.data()));
     }
-    materialCount_ = materials.size();
+    materials_ = materials;
     bakedRadius_.reset();
     std::memcpy(translucencies_.mapped(), translucencies.data(), translucencies.size() * sizeof(float));
 }
@@ -210,8 +220,14 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
 }
 
-void Subsurface::prepareSettings(const EffectSettings& settings) {
-    const bool bakes = settings.technique == Technique::Thesis && settings.thesisBakedKernel && materialCount_ > 0;
+void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
+    const std::uint32_t technique = 1u << convert(settings.technique);
+    if ((techniques_ & technique) == 0) {
+        techniques_ |= technique;
+        createContext(gpu);
+        setMaterials(materials_);
+    }
+    const bool bakes = settings.technique == Technique::Thesis && settings.thesisBakedKernel && !materials_.empty();
     if (bakes && bakedRadius_ != settings.thesisRadius) {
         check(nacreBakeThesisKernel(context_.get(), 1, settings.thesisRadius));
         bakedRadius_ = settings.thesisRadius;
@@ -239,7 +255,7 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     info.burleySampleBudget = settings.burleySampleBudget;
     info.thesisRadius = settings.thesisRadius;
     info.thesisStrength = settings.thesisStrength;
-    info.thesisBakedKernel = settings.thesisBakedKernel && materialCount_ > 0;
+    info.thesisBakedKernel = settings.thesisBakedKernel && !materials_.empty();
     info.irradiance = convert(irradiance);
     info.depth = convert(depth);
     info.materialId = convert(materialId);

@@ -50,7 +50,7 @@ public:
                  const EffectSettings& settings);
     /// Compiles what the settings need beyond the context's own pipelines; the device must be idle. Before `scatter`
     /// with new settings or materials.
-    void prepareSettings(const EffectSettings& settings);
+    void prepareSettings(Gpu& gpu, const EffectSettings& settings);
     /// Replaces all materials; the device must be idle.
     void setMaterials(const std::vector<Material>& materials);
     NacreCost scatterCost(Technique technique) const;
@@ -62,6 +62,7 @@ private:
     };
 
     void check(NacreResult result) const;
+    void createContext(Gpu& gpu);
     NacreView makeView(const View& view) const;
 
     Info info_;
@@ -70,7 +71,8 @@ private:
     Image transmitted_;
     Image thickness_;
     Buffer translucencies_;
-    std::size_t materialCount_ = 0;
+    std::vector<Material> materials_;
+    std::uint32_t techniques_;                 ///< NacreContextInfo::techniques
     std::optional<std::uint32_t> bakedRadius_; ///< of the first material as it is
     std::unique_ptr<std::string> message_;     ///< the effect's last error; its address is known to the context
     std::unique_ptr<NacreContext_T, Destroy> context_;
