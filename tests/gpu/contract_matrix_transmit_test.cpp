@@ -30,15 +30,7 @@ protected:
         both[0].translucency = both[1].translucency = translucency;
         effect_->setMaterials(both);
     }
-    GpuImage shadowMap() {
-        GpuImage image = gpu.createImage({.format = VK_FORMAT_R32_SFLOAT,
-                                          .extent = {70, 70},
-                                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                                          .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                          .array = true});
-        gpu.upload(image, std::vector<float>(70 * 70, entry));
-        return image;
-    }
+    GpuImage shadowMap() { return gpu.createShadowMap(70, std::vector<float>(70 * 70, entry)); }
     Pictures transmit(MatrixImages& images, const NacreImage& map) {
         EXPECT_EQ(nacreBeginFrame(effect_->context, 0), NACRE_SUCCESS);
         gpu.run([&](VkCommandBuffer commandBuffer) {

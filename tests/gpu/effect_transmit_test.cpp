@@ -104,14 +104,7 @@ protected:
                 }
             }
         }
-        GpuImage image = gpu.createImage({.format = VK_FORMAT_R32_SFLOAT,
-                                          .extent = {mapSize, mapSize},
-                                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                                          .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                          .layers = layers,
-                                          .array = true});
-        gpu.upload(image, texels);
-        return image;
+        return gpu.createShadowMap(mapSize, texels);
     }
 
     struct Result {

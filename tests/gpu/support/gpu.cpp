@@ -273,6 +273,17 @@ void Gpu::transition(VkCommandBuffer commandBuffer, const GpuImage& image, VkIma
                          nullptr, 0, nullptr, 1, &barrier);
 }
 
+GpuImage Gpu::createShadowMap(std::uint32_t size, const std::vector<float>& texels) {
+    GpuImage image = createImage({.format = VK_FORMAT_R32_SFLOAT,
+                                  .extent = {size, size},
+                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                  .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                  .layers = static_cast<std::uint32_t>(texels.size() / (std::size_t{size} * size)),
+                                  .array = true});
+    upload(image, texels);
+    return image;
+}
+
 void Gpu::upload(GpuImage& image, std::span<const std::byte> texels) {
     const std::size_t bytes = texelBytes(image.format) * image.extent.width * image.extent.height * image.layers;
     if (texels.size() != bytes) {

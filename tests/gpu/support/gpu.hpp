@@ -75,6 +75,8 @@ public:
     template <typename T> void upload(GpuImage& image, const std::vector<T>& texels) {
         upload(image, std::as_bytes(std::span(texels)));
     }
+    /// A square shadow map of linear depths, one layer or six, as nacreCmdTransmit reads it.
+    GpuImage createShadowMap(std::uint32_t size, const std::vector<float>& texels);
     std::vector<std::byte> downloadBytes(const GpuImage& image);
     template <typename T> std::vector<T> download(const GpuImage& image) {
         const std::vector<std::byte> bytes = downloadBytes(image);

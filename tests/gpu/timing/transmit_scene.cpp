@@ -150,14 +150,7 @@ GpuImage makeShadowMap(Gpu& gpu, const Bodies& bodies, const NacreLight& light, 
             texels[std::size_t{row} * size + x] = bodies.distance(ray) / range;
         }
     });
-    GpuImage image = gpu.createImage({.format = VK_FORMAT_R32_SFLOAT,
-                                      .extent = {size, size},
-                                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                                      .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                      .layers = layers,
-                                      .array = true});
-    gpu.upload(image, texels);
-    return image;
+    return gpu.createShadowMap(size, texels);
 }
 
 } // namespace
