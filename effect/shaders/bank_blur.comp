@@ -1,6 +1,6 @@
 // Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, two a thread, or, of
-// the coarse levels, 16x8; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial tail); lists the regions that hold
-// subsurface pixels for pass C. docs/scatter.md.
+// the coarse levels, 16x8; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial
+// tail); lists the regions that hold subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

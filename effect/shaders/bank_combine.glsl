@@ -199,7 +199,8 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
     }
 }
 
-// The levels from 2 or, in edge regions with second surfaces, 3 on: the quad's pixels lie between the same four texels. They are `offsets` behind `depth`.
+// The levels from 2 or, in edge regions with second surfaces, 3 on: the quad's pixels lie between the same four texels. They
+// are `offsets` behind `depth`.
 void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 quad, float depth, vec4 offsets,
                      uint material) {
     [[dont_unroll]] for (int level = (isEdge ? ownDepthLevels : 1) + 1; level <= bankLevels; ++level) {

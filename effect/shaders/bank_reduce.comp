@@ -159,14 +159,14 @@ bvec4 heavierHalf(RawTexel pixels[4]) {
     vec2 range = depthRange(pixels, noRange);
     bool isOne = range.y - range.x <= separationAt(1, range.x);
     bvec4 near = nearerHalf(pixels, range);
-    bvec4 all;
+    bvec4 valid;
     float balance = 0.0;
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        all[i] = pixels[i].mass > 0.0;
+        valid[i] = pixels[i].mass > 0.0;
         balance += near[i] ? pixels[i].mass : -pixels[i].mass;
     }
-    bvec4 far = bvec4(uvec4(all) & uvec4(not(near)));
-    return isOne ? all : balance >= 0.0 ? near : far;
+    bvec4 far = bvec4(uvec4(valid) & uvec4(not(near)));
+    return isOne ? valid : balance >= 0.0 ? near : far;
 }
 
 // Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
