@@ -51,7 +51,7 @@ Taps kernelTaps(int kernel) {
         return {0.25, 0.5, 0.25};
     }
     const int width = 1 << (kernel - 1);
-    const Taps binomial{1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    const Taps binomial = kernel == 2 ? Taps{1 / 3.0, 1 / 3.0, 1 / 3.0} : Taps{1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
     return convolve(convolve(box(width), spread(binomial, width)), averagedTent(width));
 }
 
@@ -108,8 +108,8 @@ const BankForm& bankForm() {
 }
 
 double bankVariance(int kernel) {
-    if (kernel < 2) {
-        return 0.5 * kernel;
+    if (kernel < 3) {
+        return kernel == 2 ? 11 / 3.0 : 0.5 * kernel;
     }
     return 1.25 * (1 << 2 * (kernel - 1));
 }

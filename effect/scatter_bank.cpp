@@ -56,7 +56,7 @@ VkExtent3D reduceGrid(VkExtent2D area) {
 // Workgroups that blur a level.
 std::uint32_t blockCount(VkExtent2D area, int level) {
     const VkExtent2D extent = levelExtent(area, level);
-    const std::uint32_t rows = level < constants::bankShortBlocks ? blurSide : blurSide / 2;
+    const std::uint32_t rows = level == 1 ? blurSide : blurSide / 2;
     return (extent.width + blurSide - 1) / blurSide * ((extent.height + rows - 1) / rows);
 }
 

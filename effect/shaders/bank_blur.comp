@@ -1,5 +1,5 @@
-// Pass B of `bank`: blurs every level with a 5x5 binomial along the surface, 16x16 texels a workgroup, two a thread, or, of
-// the coarse levels, 16x8; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial
+// Pass B of `bank`: blurs every level along the surface: level 1 with a 3x3 binomial, 16x16 texels a workgroup, two a thread,
+// the others with a 5x5 one, 16x8 texels, one a thread; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial
 // tail); lists the regions that hold subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,10 +10,9 @@ layout(local_size_x = 16, local_size_y = 8) in;
 
 const int threads = 128;
 const int side = 16;
-const int halo = 2;
-const int pitch = side + 2 * halo;
+const int pitch = side + 4;
 
-// The block's texels with two around, in the words of packRaw.
+// The block's texels with those that its kernels reach, in the words of packRaw.
 shared uvec2 lights[pitch * pitch];
 shared float depths[pitch * pitch]; // 0 = empty
 shared uint massesAndMaterials[pitch * pitch];
@@ -23,11 +22,13 @@ shared uint rough; // bits of roughness
 struct Block {
     int level;
     ivec2 first; // texel
-    int rows;    // 16 or, a texel a thread, 8
+    int rows;    // 16 on level 1, else 8
+    int reach;   // of its kernels, texels: 1 on level 1, else 2
 };
 
-int countOf(Block block) {
-    return pitch * (block.rows + 2 * halo);
+// Texels of a block and around it.
+ivec2 loadedSize(Block block) {
+    return ivec2(side, block.rows) + 2 * block.reach;
 }
 
 // The levels' blocks, counted from the coarsest level on.
@@ -40,8 +41,8 @@ Block findBlock(int group) {
     int index = group - place.w;
     int width = (place.y + side - 1) / side;
     int row = int((float(index) + 0.5) / float(width));
-    int rows = level < bankShortBlocks ? side : side / 2;
-    return Block(level, ivec2(index - row * width, row) * ivec2(side, rows), rows);
+    int rows = level == 1 ? side : side / 2;
+    return Block(level, ivec2(index - row * width, row) * ivec2(side, rows), rows, level == 1 ? 1 : 2);
 }
 
 // Whether the texel at `neighbor` is a surface further from `depth` than a smooth one's neighbour would be.
@@ -59,14 +60,14 @@ const uint anything = 8u;
 const uint anySecond = 16u;
 
 uint roughRows(int row) {
-    return (row < side / 2 + 2 * halo ? roughUpper : 0u) | (row >= side / 2 ? roughLower : 0u);
+    return (row < side / 2 + 2 ? roughUpper : 0u) | (row >= side / 2 ? roughLower : 0u);
 }
 
 // Of a texel by itself …
-uint roughnessOf(uvec4 words, int index) {
+uint roughnessOf(uvec4 words, int row) {
     // The mass, a half: 1 is 0x3c00; with a sign it is dropped.
     return ((words.w & 0xffffu) == 0x3c00u ? 0u : notFull) |
-           ((words.w & 0x8000u) != 0u ? roughRows(index / pitch) : 0u) | (words.z != 0u ? anything : 0u) |
+           ((words.w & 0x8000u) != 0u ? roughRows(row) : 0u) | (words.z != 0u ? anything : 0u) |
            (secondLevels > 0 && (words.w & secondBit) != 0u ? anySecond : 0u);
 }
 
@@ -79,7 +80,7 @@ uint roughnessBetween(Block from, ivec2 first) {
     float block[3][3];
     [[unroll]] for (int y = 0; y < 3; ++y) {
         [[unroll]] for (int x = 0; x < 3; ++x) {
-            ivec2 place = min(first + ivec2(x, y), ivec2(pitch, from.rows + 2 * halo) - 1);
+            ivec2 place = min(first + ivec2(x, y), loadedSize(from) - 1);
             block[y][x] = depths[place.y * pitch + place.x];
         }
     }
@@ -104,7 +105,12 @@ void noteRoughness(uint roughness) {
     }
 }
 
-void storeShared(int index, uvec4 words) {
+int sharedIndex(ivec2 place) {
+    return place.y * pitch + place.x;
+}
+
+void storeShared(ivec2 place, uvec4 words) {
+    int index = sharedIndex(place);
     lights[index] = words.xy;
     depths[index] = uintBitsToFloat(words.z);
     massesAndMaterials[index] = words.w;
@@ -114,27 +120,33 @@ bool hasSecond(int index) {
     return secondLevels > 0 && (massesAndMaterials[index] & secondBit) != 0u;
 }
 
-const int blockSteps = (pitch * pitch + threads - 1) / threads;
-
-ivec2 placeOf(Block block, int index) {
-    return block.first - halo + ivec2(index % pitch, index / pitch);
+// Of the texels that a block loads, counted row by row.
+ivec2 loadedPlace(Block block, int index) {
+    int width = loadedSize(block).x;
+    int row = int((float(index) + 0.5) / float(width));
+    return ivec2(index - row * width, row);
 }
+
+// 18x18 texels at most.
+const int loadSteps = 3;
 
 // All fetches before any of them is used, so that they overlap.
 void loadBlock(Block block, int thread) {
-    uvec4 words[blockSteps];
-    [[unroll]] for (int i = 0; i < blockSteps; ++i) {
-        words[i] = rawWords(block.level, placeOf(block, thread + i * threads));
+    ivec2 size = loadedSize(block);
+    uvec4 words[loadSteps];
+    [[unroll]] for (int i = 0; i < loadSteps; ++i) {
+        ivec2 place = loadedPlace(block, thread + i * threads);
+        words[i] = rawWords(block.level, block.first - block.reach + place);
     }
     uint roughness = 0u;
-    [[unroll]] for (int i = 0; i < blockSteps; ++i) {
-        int index = thread + i * threads;
-        if (index < countOf(block)) {
-            storeShared(index, words[i]);
-            roughness |= roughnessOf(words[i], index);
-            if (hasSecond(index)) {
-                int second = 3 * texelIndex(block.level, placeOf(block, index));
-                seconds[index] = uvec4(secondTexels[second], secondTexels[second + 1]);
+    [[unroll]] for (int i = 0; i < loadSteps; ++i) {
+        ivec2 place = loadedPlace(block, thread + i * threads);
+        if (place.y < size.y) {
+            storeShared(place, words[i]);
+            roughness |= roughnessOf(words[i], place.y);
+            if (hasSecond(sharedIndex(place))) {
+                int second = 3 * texelIndex(block.level, block.first - block.reach + place);
+                seconds[sharedIndex(place)] = uvec4(secondTexels[second], secondTexels[second + 1]);
             }
         }
     }
@@ -171,13 +183,15 @@ RawTexel coarseTexel(int level, ivec2 texel) {
 
 void loadCoarseBlock(Block block, int thread) {
     ivec2 extent = levelExtent(block.level);
-    for (int index = thread; index < countOf(block); index += threads) {
-        ivec2 texel = placeOf(block, index);
+    ivec2 size = loadedSize(block);
+    for (int index = thread; index < size.x * size.y; index += threads) {
+        ivec2 place = loadedPlace(block, index);
+        ivec2 texel = block.first - block.reach + place;
         bool inside = texel == clamp(texel, ivec2(0), extent - 1);
         uvec4 words = inside ? packRaw(coarseTexel(block.level, texel)) : uvec4(0u);
-        storeShared(index, words);
+        storeShared(place, words);
         storeOwn(block, texel, words);
-        noteRoughness(roughnessOf(words, index));
+        noteRoughness(roughnessOf(words, place.y));
     }
 }
 
@@ -238,18 +252,31 @@ void divide(inout BlurredTexel texel, Sums sums) {
     texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
 }
 
+// The binomial kernels' weights from the middle on.
+const float finestKernel[2] = float[](1.0 / 3.0, 1.0 / 3.0);
+const float coarseKernel[3] = float[](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
+
+void addTaps(inout Sums sums, int index, BlurredTexel surface, float kernel, float width) {
+    addTap(sums, texelAt(index), surface, kernel, width);
+    if (secondLevels > 0 && (rough & anySecond) != 0u && hasSecond(index)) {
+        addTap(sums, unpackRaw(seconds[index]), surface, kernel, width);
+    }
+}
+
 // Blurs a texel on one of its surfaces, whatever is around it.
 BlurredTexel blurTexel(int level, int center, BlurredTexel surface) {
-    const float binomial[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
     float width = texelWidth(level, surface.depth);
-    bool withSeconds = (rough & anySecond) != 0u;
     Sums sums = Sums(vec3(0.0), 0.0);
-    [[dont_unroll]] for (int y = 0; y < 5; ++y) {
-        [[unroll]] for (int x = 0; x < 5; ++x) {
-            int index = center + x - halo + (y - halo) * pitch;
-            addTap(sums, texelAt(index), surface, binomial[x] * binomial[y], width);
-            if (secondLevels > 0 && withSeconds && hasSecond(index)) {
-                addTap(sums, unpackRaw(seconds[index]), surface, binomial[x] * binomial[y], width);
+    if (level == 1) {
+        [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
+            [[unroll]] for (int x = -1; x <= 1; ++x) {
+                addTaps(sums, center + x + y * pitch, surface, finestKernel[abs(x)] * finestKernel[abs(y)], width);
+            }
+        }
+    } else {
+        [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
+            [[unroll]] for (int x = -2; x <= 2; ++x) {
+                addTaps(sums, center + x + y * pitch, surface, coarseKernel[abs(x)] * coarseKernel[abs(y)], width);
             }
         }
     }
@@ -268,8 +295,9 @@ PlainCenter plainCenter(int level, int index) {
     return PlainCenter(depths[index], 0.25 / (bankBlurDepthVariance * width * width));
 }
 
-// Fourth roots of the kernel's weights 1, 4, 6, 4, 1 sixteenths.
-const float roots[5] = float[](0.5, 0.70710678, 0.78254229, 0.70710678, 0.5);
+// Fourth roots of the kernels' weights.
+const float finestRoots[2] = float[](0.7598357, 0.7598357);
+const float coarseRoots[3] = float[](0.78254229, 0.70710678, 0.5);
 
 vec4 lightAndAreaAt(int index) {
     return vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
@@ -291,30 +319,30 @@ BlurredTexel plainTexel(vec4 sum, int index) {
 BlurredTexel blurPlain(int level, int center) {
     PlainCenter from = plainCenter(level, center);
     vec4 sum = vec4(0.0);
-    [[dont_unroll]] for (int y = 0; y < 5; ++y) {
-        [[unroll]] for (int x = 0; x < 5; ++x) {
-            int index = center + x - halo + (y - halo) * pitch;
-            addPlainTap(sum, lightAndAreaAt(index), depths[index], from, roots[x] * roots[y]);
+    [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
+        [[unroll]] for (int x = -2; x <= 2; ++x) {
+            int index = center + x + y * pitch;
+            addPlainTap(sum, lightAndAreaAt(index), depths[index], from, coarseRoots[abs(x)] * coarseRoots[abs(y)]);
         }
     }
     return plainTexel(sum, center);
 }
 
-// Blurs a texel and the one below it, which have four of five rows of taps in common.
-void blurPlainPair(int level, int center, out BlurredTexel upper, out BlurredTexel lower) {
-    PlainCenter upperCenter = plainCenter(level, center);
-    PlainCenter lowerCenter = plainCenter(level, center + pitch);
+// Blurs a texel of level 1 and the one below it, which have two of three rows of taps in common.
+void blurFinestPair(int center, out BlurredTexel upper, out BlurredTexel lower) {
+    PlainCenter upperCenter = plainCenter(1, center);
+    PlainCenter lowerCenter = plainCenter(1, center + pitch);
     vec4 upperSum = vec4(0.0);
     vec4 lowerSum = vec4(0.0);
-    [[unroll]] for (int y = 0; y < 6; ++y) {
-        [[unroll]] for (int x = 0; x < 5; ++x) {
-            int index = center + x - halo + (y - halo) * pitch;
+    [[unroll]] for (int y = -1; y <= 2; ++y) {
+        [[unroll]] for (int x = -1; x <= 1; ++x) {
+            int index = center + x + y * pitch;
             vec4 lightAndArea = lightAndAreaAt(index);
-            if (y < 5) {
-                addPlainTap(upperSum, lightAndArea, depths[index], upperCenter, roots[x] * roots[min(y, 4)]);
+            if (y < 2) {
+                addPlainTap(upperSum, lightAndArea, depths[index], upperCenter, finestRoots[abs(x)] * finestRoots[min(abs(y), 1)]);
             }
-            if (y > 0) {
-                addPlainTap(lowerSum, lightAndArea, depths[index], lowerCenter, roots[x] * roots[max(y - 1, 0)]);
+            if (y > -1) {
+                addPlainTap(lowerSum, lightAndArea, depths[index], lowerCenter, finestRoots[abs(x)] * finestRoots[min(abs(y - 1), 1)]);
             }
         }
     }
@@ -331,7 +359,7 @@ void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     }
     int index = texelIndex(block.level, texel);
     blurredLights[index] = blurred.present ? packBlurred(blurred) : uvec2(0u, signBit);
-    bool isEmpty = depths[(local.y + halo) * pitch + local.x + halo] == 0.0;
+    bool isEmpty = depths[sharedIndex(local + block.reach)] == 0.0;
     if (isEmpty && blurred.present) {
         borrowedSurfaces[index] = uvec2(floatBitsToUint(blurred.depth), blurred.material);
     }
@@ -379,31 +407,31 @@ void main() {
         loadCoarseBlock(block, thread);
     }
     barrier();
-    bool isShort = block.rows < side;
-    ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, isShort ? 1 : 2);
-    int own = isShort ? 1 : 2; // texels, one below the other
+    int own = block.level == 1 ? 2 : 1; // texels, one below the other
+    ivec2 local = ivec2(gl_LocalInvocationID.xy) * ivec2(1, own);
     if ((rough & anything) == 0u) { // no pixel will read these, but other texels of coarse levels lie near
         for (int i = 0; i < own && block.level > 1; ++i) {
             storeBlurred(block, local + ivec2(0, i), emptyBlurred);
         }
         return;
     }
-    if (thread < countOf(block) / 4) {
-        int row = thread / (pitch / 2);
-        noteRoughness(roughnessBetween(block, 2 * ivec2(thread - row * (pitch / 2), row)));
+    ivec2 size = loadedSize(block);
+    if (thread < size.x * size.y / 4) {
+        int row = thread / (size.x / 2);
+        noteRoughness(roughnessBetween(block, 2 * ivec2(thread - row * (size.x / 2), row)));
     }
     barrier();
-    int center = (local.y + halo) * pitch + local.x + halo;
+    int center = sharedIndex(local + block.reach);
     if (separateMaterials || rough != anything) {
         [[dont_unroll]] for (int i = 0; i < own; ++i) {
             blurRough(block, local + ivec2(0, i), center + i * pitch);
         }
-    } else if (isShort) {
+    } else if (block.level > 1) {
         storeBlurred(block, local, blurPlain(block.level, center));
     } else {
         BlurredTexel upper;
         BlurredTexel lower;
-        blurPlainPair(block.level, center, upper, lower);
+        blurFinestPair(center, upper, lower);
         storeBlurred(block, local, upper);
         storeBlurred(block, local + ivec2(0, 1), lower);
     }

@@ -59,36 +59,12 @@ vec4 lightAt(ivec2 pixel) {
     return unpackLight(pixelLights[pixelPlace(pixel)]);
 }
 
-// The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
-// middle in x and y.
-void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
-    vec2 middle = 1.0 / (1.0 + 2.0 * beside);
-    vec2 side = beside * middle;
-    vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
-    [[unroll]] for (int y = 0; y < 4; ++y) {
-        vec4 row[4];
-        [[unroll]] for (int x = 0; x < 4; ++x) {
-            row[x] = lightAt(first + ivec2(x, y) - 1);
-        }
-        [[unroll]] for (int x = 0; x < 2; ++x) {
-            rows[y][x] = middle.x * row[x + 1] + side.x * row[x] + side.x * row[x + 2];
-        }
-    }
+// The identity.
+void addIdentity(inout Sum sums[4], Mixture mixture, ivec2 first) {
+    vec3 weight = max(kernelWeight(mixture, 0), vec3(bankLeastIdentity));
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        int x = i & 1;
-        int y = i >> 1;
-        add(sums[i], weight, middle.y * rows[y + 1][x] + side.y * rows[y][x] + side.y * rows[y + 2][x]);
+        add(sums[i], weight, lightAt(first + ivec2(i & 1, i >> 1)));
     }
-}
-
-// The identity; returns the light of the quad's pixels.
-vec4[4] addIdentity(inout Sum sums[4], vec3 weight, ivec2 first) {
-    vec4 own[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        own[i] = lightAt(first + ivec2(i & 1, i >> 1));
-        add(sums[i], weight, own[i]);
-    }
-    return own;
 }
 
 // Where a quad lies between four texels of a level.
@@ -216,8 +192,9 @@ void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 qua
     }
 }
 
-// Writes the pixels of a quad that share a material. `own` is their light, of which what is not scattered leaves.
-void storeGroup(ivec2 quad, bvec4 members, uint material, float strength, vec4 own[4], Sum sums[4]) {
+// Writes the pixels of a quad that share a material. `place`: of its first in shared memory; of their light there what is
+// not scattered leaves.
+void storeGroup(ivec2 quad, ivec2 place, bvec4 members, uint material, float strength, Sum sums[4]) {
     ivec2 first = quad + view.areaOffset;
     vec4 strengths = vec4(strength);
     if (hasFlag(flagStrength)) {
@@ -227,8 +204,8 @@ void storeGroup(ivec2 quad, bvec4 members, uint material, float strength, vec4 o
     }
     vec3 leaving[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        float pixelStrength = own[i].w > 0.0 ? strengths[i] : 1.0;
-        leaving[i] = mix(own[i].rgb, quotient(sums[i]), pixelStrength);
+        vec4 own = lightAt(place + ivec2(i & 1, i >> 1));
+        leaving[i] = mix(own.rgb, quotient(sums[i]), own.w > 0.0 ? strengths[i] : 1.0);
     }
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {

@@ -17,62 +17,47 @@ struct Group {
     float depth;
 };
 
-// Depth steps on the slope that the quad's four pixels make.
-vec2 quadSlope(vec4 depths) {
-    return 0.5 * vec2(depths.y - depths.x + depths.w - depths.z, depths.z - depths.x + depths.w - depths.y);
-}
+// The full-resolution 3x3 of a pixel, not yet divided.
+struct Blur {
+    vec3 light;
+    float area;
+};
 
-// Whether the block of 4x4 px around the quad is one slope.
-bool isSlope(Group group, vec2 slope, float width) {
-    bool result = all(group.members);
-    [[unroll]] for (int i = 0; i < 16; ++i) {
-        ivec2 offset = ivec2(i & 3, i >> 2) - 1;
-        int place = pixelPlace(group.first + offset);
-        float expected = group.depths.x + dot(slope, vec2(offset));
-        result = result && pixelLights[place].y > 0xffffu &&
-                 abs(pixelDepths[place] - expected) <= bankSlopeTolerance * width;
-    }
-    return result;
-}
+// Fourth roots of [1 2 1]² / 16, by the number of steps from the middle.
+const float roots[3] = float[](0.70710678, 0.59460356, 0.5);
 
-// The full-resolution 3x3 of a pixel, tap by tap.
-vec4 blurPixel(ivec2 center, uint material) {
-    float depth = pixelDepths[pixelPlace(center)];
-    float width = texelWidth(0, depth);
-    float scale = 1.0 / (bankPixelDepthVariance * width * width);
-    vec3 light = vec3(0.0);
-    float area = 0.0;
-    [[unroll]] for (int j = 0; j < 9; ++j) {
-        ivec2 offset = ivec2(j % 3, j / 3) - 1;
-        float kernel = (offset.x == 0 ? 0.5 : 0.25) * (offset.y == 0 ? 0.5 : 0.25);
-        int place = pixelPlace(center + offset);
-        vec4 tap = unpackLight(pixelLights[place]);
-        float difference = pixelDepths[place] - depth;
-        float weight = kernel * falloff(difference * difference * scale);
-        bool taken = tap.w > 0.0;
-        if (separateMaterials) {
-            taken = taken && exchanges(pixelMaterials[place], material);
-        }
-        weight = taken ? weight : 0.0;
-        area += weight * pixelAreas[place];
-        light += weight * pixelAreas[place] * tap.rgb;
-    }
-    float mass = massOf(area);
-    return vec4(light * (mass / max(area, bankLeastWeight)), mass);
-}
-
-// The full-resolution 3x3.
+// The full-resolution 3x3: every pixel of the 4x4 around the quad is a tap for those of the quad that are beside it.
 void addPixels(inout Sum sums[4], vec3 weight, Group group) {
     float width = texelWidth(0, group.depth);
-    vec2 slope = quadSlope(group.depths);
-    if (!separateMaterials && isSlope(group, slope, width)) {
-        addSlopePixels(sums, weight, group.first, weightsBeside(slope / width));
-        return;
-    }
-    [[dont_unroll]] for (int i = 0; i < 4; ++i) {
-        if (group.members[i]) {
-            add(sums[i], weight, blurPixel(group.first + ivec2(i & 1, i >> 1), group.material));
+    float scale = 0.25 / (bankPixelDepthVariance * width * width);
+    Blur blurs[4] = Blur[](Blur(vec3(0.0), 0.0), Blur(vec3(0.0), 0.0), Blur(vec3(0.0), 0.0), Blur(vec3(0.0), 0.0));
+    [[unroll]] for (int j = 0; j < 16; ++j) {
+        ivec2 tap = ivec2(j & 3, j >> 2) - 1;
+        int place = pixelPlace(group.first + tap);
+        vec4 light = unpackLight(pixelLights[place]);
+        bool taken = light.w > 0.0;
+        if (separateMaterials) {
+            taken = taken && exchanges(pixelMaterials[place], group.material);
         }
+        float depth = taken ? pixelDepths[place] : 1e30;
+        float area = pixelAreas[place];
+        vec4 lightAndArea = vec4(light.rgb * area, area);
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            ivec2 steps = abs(tap - ivec2(i & 1, i >> 1));
+            if (max(steps.x, steps.y) <= 1) {
+                float root = roots[steps.x + steps.y];
+                float difference = depth - group.depths[i];
+                float base = max(0.0, root - difference * difference * (root * scale));
+                base *= base;
+                base *= base;
+                blurs[i].light += base * lightAndArea.rgb;
+                blurs[i].area += base * lightAndArea.w;
+            }
+        }
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        float mass = massOf(blurs[i].area);
+        add(sums[i], weight, vec4(blurs[i].light * (mass / max(blurs[i].area, bankLeastWeight)), mass));
     }
 }
 
@@ -93,11 +78,11 @@ void addFineLevels(inout Sum sums[4], Mixture mixture, Group group) {
 void combineGroup(Group group) {
     Mixture mixture = findMixture(group.material, group.depth);
     Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-    vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), group.first);
+    addIdentity(sums, mixture, group.first);
     addPixels(sums, kernelWeight(mixture, 1), group);
     addFineLevels(sums, mixture, group);
     addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
-    storeGroup(group.quad, group.members, group.material, mixture.strength, own, sums);
+    storeGroup(group.quad, group.first, group.members, group.material, mixture.strength, sums);
 }
 
 void main() {

@@ -6,6 +6,28 @@
 const bool isEdge = false;
 #include "bank_combine.glsl"
 
+// The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
+// middle in x and y.
+void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
+    vec2 middle = 1.0 / (1.0 + 2.0 * beside);
+    vec2 side = beside * middle;
+    vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
+    [[unroll]] for (int y = 0; y < 4; ++y) {
+        vec4 row[4];
+        [[unroll]] for (int x = 0; x < 4; ++x) {
+            row[x] = lightAt(first + ivec2(x, y) - 1);
+        }
+        [[unroll]] for (int x = 0; x < 2; ++x) {
+            rows[y][x] = middle.x * row[x + 1] + side.x * row[x] + side.x * row[x + 2];
+        }
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int x = i & 1;
+        int y = i >> 1;
+        add(sums[i], weight, middle.y * rows[y + 1][x] + side.y * rows[y][x] + side.y * rows[y + 2][x]);
+    }
+}
+
 // Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
 void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel) {
     vec4 rows[3][2];
@@ -53,11 +75,11 @@ void main() {
         }
         Mixture mixture = findMixture(material, quad.depth);
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-        vec4 own[4] = addIdentity(sums, kernelWeight(mixture, 0), 2 * texel + 1);
+        addIdentity(sums, mixture, 2 * texel + 1);
         addSlopePixels(sums, kernelWeight(mixture, 1), 2 * texel + 1, quad.beside);
         addFinestLevel(sums, kernelWeight(mixture, 2), texel);
         addCoarseLevels(sums, mixture, region, first, quad.depth, vec4(0.0), material);
-        storeGroup(first, members, material, mixture.strength, own, sums);
+        storeGroup(first, 2 * texel + 1, members, material, mixture.strength, sums);
     }
     storeRest(first, ownMaterials);
 }

@@ -27,9 +27,6 @@ const float bankPlainStep = 1.5f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). Twice half the variance (in texels) of a whole level
 // would be 1.25: −0.4 dB.
 const float bankBlurDepthVariance = 2.0f;
-// Blur: levels from this one on are blurred in blocks of half the height, a texel a thread: they are few, and what they take
-// is the time of one workgroup.
-const int bankShortBlocks = 3;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
 const float bankLevelDepthVariance = 8.0f;
 const float bankSurfacesLevelDepthVariance = 5.0f; // with second surfaces, which take what the wider one was for
@@ -51,6 +48,6 @@ const float bankLeastWeight = 1e-6f;
 const float bankSmoothDepth = 3.0f;
 // The same beside an empty texel, where surfaces curve away. With 3: −1 to −5 dB on the models.
 const float bankSmoothHoleDepth = 0.5f;
-// In an edge region, a quad's block of 4x4 px is one slope when no pixel is further from it than this many pixel widths;
-// the 3x3 then has separable weights, as in smooth regions. 0.1 changes no view of the models by 0.1 dB.
-const float bankSlopeTolerance = 0.3f;
+// A pixel's own light weighs at least this: where hardly any of the other kernels is on its surface, its light stays.
+// Without, such a pixel can be black.
+const float bankLeastIdentity = 1.0f / 1024.0f;

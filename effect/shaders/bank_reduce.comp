@@ -313,10 +313,11 @@ void reducePlainTile(ivec2 tile, int thread) {
 void emptyTile(Block block, ivec2 tile, ivec2 texel, ivec2 first, int thread) {
     bool hasAlbedo = hasFlag(flagAlbedo);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 pixel = first + offsetOf(i) + view.areaOffset;
-        vec3 albedo = hasAlbedo ? texelFetch(albedoImage, imagePixel(first + offsetOf(i)), 0).rgb : vec3(1.0);
-        if (isInExtent(first + offsetOf(i))) {
-            imageStore(scatteredImage, pixel, vec4(block.light[i] * albedo, 1.0));
+        ivec2 local = tile * tileSize + ivec2(thread % tileSize, thread / tileSize + 4 * i);
+        vec3 light = texelFetch(irradianceImage, imagePixel(local), 0).rgb;
+        vec3 albedo = hasAlbedo ? texelFetch(albedoImage, imagePixel(local), 0).rgb : vec3(1.0);
+        if (isInExtent(local)) {
+            imageStore(scatteredImage, local + view.areaOffset, vec4(light * albedo, 1.0));
         }
     }
     int index = texelIndex(1, tile * side + texel);

@@ -121,6 +121,11 @@ uvec2 surfaceOf(int index, uvec2 own, uvec2 light) {
     return uvec2(borrowed.x, borrowed.y << 16 | fullMass);
 }
 
+// A texel beside the region may be rough through what lies beyond it; those of level 1 are read all the same.
+void storeFinestTexel(int index, uvec2 light) {
+    levelLights[index] = uvec2(light.x, light.y & ~signBit);
+}
+
 void storeLevelTexel(int index, int level, uvec2 light) {
     levelLights[index] = light;
     if ((light.y & signBit) != 0u) {
@@ -181,9 +186,9 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
         ringFetched.light *= albedoBefore(ringPixel + view.areaOffset, ringMaterial);
     }
 
-    storeLevelTexel(fineIndex(texel), 1, fineLight);
+    storeFinestTexel(fineIndex(texel), fineLight);
     if (ringThread < fineRingCount) {
-        storeLevelTexel(fineIndex(fineRing), 1, ringLight);
+        storeFinestTexel(fineIndex(fineRing), ringLight);
     }
     if (thread < coarseCount) {
         storeLevelTexel(fineCount + thread, level, coarseLight);

@@ -237,7 +237,9 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
 
 // A texel's kernel where it stands on a surface at this depth.
 BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
-    constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    constexpr double finest[] = {0, 1 / 3.0, 1 / 3.0, 1 / 3.0, 0};
+    constexpr double coarse[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    const double* binomial = level == 1 ? finest : coarse;
     const double width = texelWidth(level, depth);
     Rgb light{};
     double area = 0;
@@ -276,10 +278,10 @@ bool BankTwin::hasHole(int x, int y) const {
     return false;
 }
 
-// The texels of level 1 of a tile's upper or lower half and two more around agree in depth with their neighbours; so do
+// The texels of level 1 of a tile's upper or lower half and one more around agree in depth with their neighbours; so do
 // then the coarser ones.
 bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
-    constexpr int halo = 2;
+    constexpr int halo = 1;
     const int width = tileSize / 2;
     const int height = regionHeight / 2;
     const int firstX = tileX * width - halo;
@@ -323,6 +325,10 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
         const double depth = smooth ? raw_[1].at(quadX / 2, quadY / 2)->depth : first->depth;
         const int material = scene_.materialId[scene_.index(quadX + leader % 2, quadY + leader / 2)];
         const BankWeights weights = tables_[material - 1].at(scene_.focalLength / depth);
+        Rgb identity = weights[0];
+        for (double& share : identity) {
+            share = std::max<double>(share, constants::bankLeastIdentity);
+        }
         for (int i = leader; i < 4; ++i) {
             const int x = quadX + i % 2;
             const int y = quadY + i / 2;
@@ -334,7 +340,7 @@ void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
             }
             done[i] = true;
             Accumulator sum;
-            sum.add(weights[0], scene_.irradiance[scene_.index(x, y)], 1);
+            sum.add(identity, scene_.irradiance[scene_.index(x, y)], 1);
             if (smooth) {
                 addPixelsOnSlope(sum, weights[1], x, y);
             } else {
