@@ -17,48 +17,69 @@ struct Group {
     float depth;
 };
 
-// The full-resolution 3x3 of a pixel, not yet divided.
-struct Blur {
-    vec3 light;
-    float area;
+// Two neighbouring pixels of a row, light times area and area.
+struct Pair {
+    vec4 left;
+    vec4 right;
 };
 
-// Fourth roots of [1 2 1]² / 16, by the number of steps from the middle.
-const float roots[3] = float[](0.70710678, 0.59460356, 0.5);
+// Fourth roots of ½ and ¼, the weights along an axis of the middle of the full-resolution 3x3 and of what is beside it.
+const float middleRoot = 0.84089642;
+const float besideRoot = 0.70710678;
 
-// The full-resolution 3x3: every pixel of the 4x4 around the quad is a tap for those of the quad that are beside it.
-void addPixels(inout Sum sums[4], vec3 weight, Group group) {
-    float width = texelWidth(0, group.depth);
-    float scale = 0.25 / (bankPixelDepthVariance * width * width);
-    Blur blurs[4] = Blur[](Blur(vec3(0.0), 0.0), Blur(vec3(0.0), 0.0), Blur(vec3(0.0), 0.0), Blur(vec3(0.0), 0.0));
-    [[unroll]] for (int j = 0; j < 16; ++j) {
-        ivec2 tap = ivec2(j & 3, j >> 2) - 1;
-        int place = pixelPlace(group.first + tap);
-        vec4 light = unpackLight(pixelLights[place]);
-        bool taken = light.w > 0.0;
-        if (separateMaterials) {
-            taken = taken && exchanges(pixelMaterials[place], group.material);
-        }
-        float depth = taken ? pixelDepths[place] : 1e30;
-        float area = pixelAreas[place];
-        vec4 lightAndArea = vec4(light.rgb * area, area);
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            ivec2 steps = abs(tap - ivec2(i & 1, i >> 1));
-            if (max(steps.x, steps.y) <= 1) {
-                float root = roots[steps.x + steps.y];
-                float difference = depth - group.depths[i];
-                float base = max(0.0, root - difference * difference * (root * scale));
-                base *= base;
-                base *= base;
-                blurs[i].light += base * lightAndArea.rgb;
-                blurs[i].area += base * lightAndArea.w;
+void addTap(inout vec4 sum, vec4 lightAndArea, float depth, float ownDepth, float root, float scale) {
+    float difference = depth - ownDepth;
+    float base = max(0.0, root - difference * difference * (root * scale));
+    base *= base;
+    sum += base * base * lightAndArea;
+}
+
+// The full-resolution 3x3 of two neighbouring pixels, not yet divided: of `row` of the quad.
+Pair blurPair(Group group, int row, vec2 ownDepths, float scale) {
+    Pair sums = Pair(vec4(0.0), vec4(0.0));
+    [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
+        float rootY = y == 0 ? middleRoot : besideRoot;
+        [[unroll]] for (int x = -1; x <= 2; ++x) {
+            int place = pixelPlace(group.first + ivec2(x, row + y));
+            vec4 light = unpackLight(pixelLights[place]);
+            bool taken = light.w > 0.0;
+            if (separateMaterials) {
+                taken = taken && exchanges(pixelMaterials[place], group.material);
+            }
+            float depth = taken ? pixelDepths[place] : 1e30;
+            float area = pixelAreas[place];
+            vec4 lightAndArea = vec4(light.rgb * area, area);
+            if (x <= 1) {
+                addTap(sums.left, lightAndArea, depth, ownDepths.x, rootY * (x == 0 ? middleRoot : besideRoot), scale);
+            }
+            if (x >= 0) {
+                addTap(sums.right, lightAndArea, depth, ownDepths.y, rootY * (x == 1 ? middleRoot : besideRoot), scale);
             }
         }
     }
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        float mass = massOf(blurs[i].area);
-        add(sums[i], weight, vec4(blurs[i].light * (mass / max(blurs[i].area, bankLeastWeight)), mass));
+    return sums;
+}
+
+void addBlurred(inout Sum sum, vec3 weight, vec4 lightAndArea) {
+    float mass = massOf(lightAndArea.w);
+    add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
+}
+
+// The full-resolution 3x3.
+void addPixels(inout Sum sums[4], vec3 weight, Group group) {
+    float width = texelWidth(0, group.depth);
+    float scale = 0.25 / (bankPixelDepthVariance * width * width);
+    const Pair none = Pair(vec4(0.0), vec4(0.0));
+    Pair upper = none;
+    Pair lower = none;
+    [[dont_unroll]] for (int row = 0; row < 2; ++row) {
+        upper = lower;
+        lower = blurPair(group, row, row == 0 ? group.depths.xy : group.depths.zw, scale);
     }
+    addBlurred(sums[0], weight, upper.left);
+    addBlurred(sums[1], weight, upper.right);
+    addBlurred(sums[2], weight, lower.left);
+    addBlurred(sums[3], weight, lower.right);
 }
 
 // The levels whose texels are hardly larger than a pixel: every pixel looks from its own depth.

@@ -26,7 +26,7 @@ const float bankFinestSeparation = 2.0f;
 const float bankPlainStep = 1.5f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). Twice half the variance (in texels) of a whole level
 // would be 1.25: −0.4 dB.
-const float bankBlurDepthVariance = 2.0f;
+const float bankBlurDepthVariance = 1.4f;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
 const float bankLevelDepthVariance = 8.0f;
 const float bankSurfacesLevelDepthVariance = 5.0f; // with second surfaces, which take what the wider one was for
