@@ -51,8 +51,9 @@ Taps kernelTaps(int kernel) {
         return {0.25, 0.5, 0.25};
     }
     const int width = 1 << (kernel - 1);
-    const Taps binomial = kernel == 2 ? Taps{1 / 3.0, 1 / 3.0, 1 / 3.0} : Taps{1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
-    return convolve(convolve(box(width), spread(binomial, width)), averagedTent(width));
+    const Taps blur =
+        kernel == 2 ? Taps{1 / 3.0, 1 / 3.0, 1 / 3.0} : Taps{1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    return convolve(convolve(box(width), spread(blur, width)), averagedTent(width));
 }
 
 EdgeTail edgeTail(const Taps& taps) {

@@ -51,10 +51,15 @@ void openDevice(Device& device, const NacreContextInfo& info) {
              VK_API_VERSION_MAJOR(properties.apiVersion), ".", VK_API_VERSION_MINOR(properties.apiVersion),
              ", the effect needs 1.2");
     }
-    VkPhysicalDeviceFeatures features{};
-    device.vk.GetPhysicalDeviceFeatures(info.physicalDevice, &features);
-    if (!features.shaderStorageImageWriteWithoutFormat) {
+    VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features12, {}};
+    device.vk.GetPhysicalDeviceFeatures2(info.physicalDevice, &features);
+    if (!features.features.shaderStorageImageWriteWithoutFormat) {
         fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device lacks the feature shaderStorageImageWriteWithoutFormat");
+    }
+    if (info.shaderFloat16 && !features12.shaderFloat16) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE,
+             "NacreContextInfo::shaderFloat16 is set, but the device lacks the feature shaderFloat16");
     }
     checkLimit(device.limits.maxPerStageDescriptorSampledImages, requirements.maxPerStageDescriptorSampledImages,
                "maxPerStageDescriptorSampledImages");
@@ -93,6 +98,7 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
     context.messageCallback = info.messageCallback;
     context.userData = info.userData;
     context.enabled = enabledTechniques(info.techniques);
+    context.shaderFloat16 = info.shaderFloat16;
     openDevice(context.device, info);
     checkExtent(context.device, info.maxExtent);
     for (std::size_t i = 0; i < techniqueCount; ++i) {

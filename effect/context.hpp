@@ -58,6 +58,7 @@ struct Context {
     VkExtent2D maxExtent{};
     std::uint32_t maxLights = 0;
     std::array<bool, techniqueCount> enabled{};
+    bool shaderFloat16 = false; ///< NacreContextInfo::shaderFloat16
 
     Programs scatter;
     Programs transmit;

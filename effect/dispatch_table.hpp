@@ -7,7 +7,7 @@ namespace nacre::effect {
 
 // clang-format off
 #define NACRE_INSTANCE_FUNCTIONS(X) \
-    X(GetDeviceProcAddr) X(GetPhysicalDeviceFeatures) X(GetPhysicalDeviceMemoryProperties) \
+    X(GetDeviceProcAddr) X(GetPhysicalDeviceFeatures2) X(GetPhysicalDeviceMemoryProperties) \
     X(GetPhysicalDeviceProperties)
 #define NACRE_DEVICE_FUNCTIONS(X) \
     X(AllocateDescriptorSets) X(AllocateMemory) X(BindBufferMemory) X(BindImageMemory) X(CmdBindDescriptorSets) \

@@ -52,6 +52,7 @@ struct Pass {
     const char* name; ///< debug label and timestamp name
     const char* file; ///< what nacre_shader calls it
     std::span<const std::uint32_t> spirv;
+    std::span<const std::uint32_t> halfSpirv = {}; ///< in its place with NacreContextInfo::shaderFloat16; empty = none
     IntermediateSet reads = 0;
     IntermediateSet writes = 0;
     /// Workgroups for a render area, in px.

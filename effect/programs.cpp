@@ -70,7 +70,8 @@ void createPrograms(Context& context, VkPipelineCache cache) {
         const Programs& programs = i == transmitIndex ? context.transmit : context.scatter;
         const VkPipelineLayout layout = programs.layout.get();
         for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
-            for (const Pass& pass : part) {
+            for (Pass pass : part) {
+                pass.spirv = context.shaderFloat16 && !pass.halfSpirv.empty() ? pass.halfSpirv : pass.spirv;
                 context.pipelines[i].push_back(createPipeline(context.device, layout, pass, cache));
                 context.separatePipelines[i].push_back(
                     pass.asksMaterials ? createPipeline(context.device, layout, pass, cache, &separateConstants)

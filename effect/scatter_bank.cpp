@@ -7,6 +7,7 @@
 #include "bank_blur.spv.h"
 #include "bank_combine_edge.spv.h"
 #include "bank_combine_smooth.spv.h"
+#include "bank_combine_smooth_half.spv.h"
 #include "bank_reduce.spv.h"
 #include "bank_surfaces_blur.spv.h"
 #include "bank_surfaces_combine_edge.spv.h"
@@ -127,6 +128,7 @@ constexpr Pass edgePass{.name = "nacre bank combine edge",
 constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .file = "bank_combine_smooth",
                           .spirv = bank_combine_smooth_spv,
+                          .halfSpirv = bank_combine_smooth_half_spv,
                           .reads = raw | blurred | quads | tiles,
                           .indirect = Intermediate::BankTiles,
                           .indirectOffset = 0};

@@ -234,14 +234,15 @@ std::size_t choose(const std::vector<DeviceDescription>& devices, const std::str
     return best.value_or(0);
 }
 
-vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice, std::uint32_t queueFamily,
-                            bool anisotropic) {
+vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice, std::uint32_t queueFamily, bool anisotropic,
+                            bool halfFloats) {
     const NacreRequirements needed = effectRequirements();
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{
         .queueFamilyIndex = queueFamily, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDeviceVulkan12Features features12;
     features12 = needed.features12;
+    features12.shaderFloat16 = halfFloats;
     vk::PhysicalDeviceVulkan13Features features13{
         .pNext = &features12, .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE};
     vk::PhysicalDeviceFeatures2 features{.pNext = &features13};
@@ -295,7 +296,10 @@ Device::Implementation::Implementation(const DeviceSettings& settings) : context
     const bool software = physicalDevice.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
     anisotropic = physicalDevice.getFeatures().samplerAnisotropy && !software;
     queueFamily = findQueueFamily(physicalDevice).value();
-    device = openDevice(physicalDevice, queueFamily, anisotropic);
+    halfFloats = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>()
+                     .get<vk::PhysicalDeviceVulkan12Features>()
+                     .shaderFloat16;
+    device = openDevice(physicalDevice, queueFamily, anisotropic, halfFloats);
     queue = vk::raii::Queue(device, queueFamily, 0);
     commandPool = vk::raii::CommandPool(
         device, {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queueFamily});

@@ -25,6 +25,7 @@ struct Device::Implementation {
     vk::PhysicalDeviceMemoryProperties memoryProperties;
     bool labels = false;      ///< VK_EXT_debug_utils is there
     bool anisotropic = false; ///< samplerAnisotropy is there and enabled
+    bool halfFloats = false;  ///< shaderFloat16 is there and enabled
     std::uint32_t queueFamily = 0;
     vk::raii::Device device = nullptr;
     vk::raii::Queue queue = nullptr;

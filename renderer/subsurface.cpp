@@ -141,6 +141,7 @@ void Subsurface::createContext(Gpu& gpu) {
     contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights_.size()));
     contextInfo.messageCallback = keepMessage;
     contextInfo.userData = message_.get();
+    contextInfo.shaderFloat16 = gpu.halfFloats;
     NacreContext context = nullptr;
     check(nacreCreateContext(&contextInfo, &context));
     context_.reset(context);

@@ -1,5 +1,5 @@
-// Pass B of `bank`: blurs every level along the surface: level 1 with a 3x3 binomial, 16x16 texels a workgroup, two a thread,
-// the others with a 5x5 one, 16x8 texels, one a thread; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial
+// Pass B of `bank`: blurs every level along the surface: level 1 with a 3x3 mean, 16x16 texels a workgroup, two a thread,
+// the others with a 5x5 binomial, 16x8 texels, one a thread; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial
 // tail); lists the regions that hold subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -252,8 +252,8 @@ void divide(inout BlurredTexel texel, Sums sums) {
     texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
 }
 
-// The binomial kernels' weights from the middle on.
-const float finestKernel[2] = float[](1.0 / 3.0, 1.0 / 3.0);
+const float finestKernel = 1.0 / 9.0;
+// The binomial's weights from the middle on.
 const float coarseKernel[3] = float[](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
 
 void addTaps(inout Sums sums, int index, BlurredTexel surface, float kernel, float width) {
@@ -270,7 +270,7 @@ BlurredTexel blurTexel(int level, int center, BlurredTexel surface) {
     if (level == 1) {
         [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
             [[unroll]] for (int x = -1; x <= 1; ++x) {
-                addTaps(sums, center + x + y * pitch, surface, finestKernel[abs(x)] * finestKernel[abs(y)], width);
+                addTaps(sums, center + x + y * pitch, surface, finestKernel, width);
             }
         }
     } else {
@@ -295,8 +295,7 @@ PlainCenter plainCenter(int level, int index) {
     return PlainCenter(depths[index], 0.25 / (bankBlurDepthVariance * width * width));
 }
 
-// Fourth roots of the kernels' weights.
-const float finestRoots[2] = float[](0.7598357, 0.7598357);
+// Fourth roots of the binomial's weights; the mean's are all the same.
 const float coarseRoots[3] = float[](0.78254229, 0.70710678, 0.5);
 
 vec4 lightAndAreaAt(int index) {
@@ -339,10 +338,10 @@ void blurFinestPair(int center, out BlurredTexel upper, out BlurredTexel lower) 
             int index = center + x + y * pitch;
             vec4 lightAndArea = lightAndAreaAt(index);
             if (y < 2) {
-                addPlainTap(upperSum, lightAndArea, depths[index], upperCenter, finestRoots[abs(x)] * finestRoots[min(abs(y), 1)]);
+                addPlainTap(upperSum, lightAndArea, depths[index], upperCenter, 1.0);
             }
             if (y > -1) {
-                addPlainTap(lowerSum, lightAndArea, depths[index], lowerCenter, finestRoots[abs(x)] * finestRoots[min(abs(y - 1), 1)]);
+                addPlainTap(lowerSum, lightAndArea, depths[index], lowerCenter, 1.0);
             }
         }
     }

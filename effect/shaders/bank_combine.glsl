@@ -42,6 +42,21 @@ vec4 unpackLight(uvec2 words) {
     return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
 }
 
+// What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is.
+#ifdef HALF_FLOATS
+#define Real float16_t
+#define Light f16vec4
+Light storedLight(uvec2 words) {
+    return Light(unpackFloat2x16(words.x), unpackFloat2x16(words.y));
+}
+#else
+#define Real float
+#define Light vec4
+Light storedLight(uvec2 words) {
+    return unpackLight(words);
+}
+#endif
+
 void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
     sum.light += weight.rg * lightAndMass.rg;
     sum.blue += weight.b * lightAndMass.ba;
@@ -85,15 +100,15 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
     int below = corner.index + levelPitch[level].x;
     float step = 1.0 / float(1 << level);
     vec2 fraction = corner.fraction;
-    vec4 upperLeft = unpackLight(levelLights[corner.index]);
-    vec4 lowerLeft = unpackLight(levelLights[below]);
-    vec4 upperSlope = unpackLight(levelLights[corner.index + 1]) - upperLeft;
-    vec4 lowerSlope = unpackLight(levelLights[below + 1]) - lowerLeft;
+    Light upperLeft = storedLight(levelLights[corner.index]);
+    Light lowerLeft = storedLight(levelLights[below]);
+    Light upperSlope = storedLight(levelLights[corner.index + 1]) - upperLeft;
+    Light lowerSlope = storedLight(levelLights[below + 1]) - lowerLeft;
     [[unroll]] for (int x = 0; x < 2; ++x) {
-        vec4 upper = upperLeft + fraction.x * upperSlope;
-        vec4 slope = lowerLeft + fraction.x * lowerSlope - upper;
-        add(sums[x], weight, upper + fraction.y * slope);
-        add(sums[x + 2], weight, upper + (fraction.y + step) * slope);
+        Light upper = upperLeft + Real(fraction.x) * upperSlope;
+        Light slope = lowerLeft + Real(fraction.x) * lowerSlope - upper;
+        add(sums[x], weight, vec4(upper + Real(fraction.y) * slope));
+        add(sums[x + 2], weight, vec4(upper + Real(fraction.y + step) * slope));
         fraction.x += step;
     }
 }

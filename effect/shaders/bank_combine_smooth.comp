@@ -3,42 +3,51 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#ifdef HALF_FLOATS
+#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
+#endif
 const bool isEdge = false;
 #include "bank_combine.glsl"
+
+// A light with its share of those on either side.
+Light mixSides(Light middle, Light before, Light after, Real side) {
+    return middle + side * (before - middle) + side * (after - middle);
+}
 
 // The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
 // middle in x and y.
 void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
-    vec2 middle = 1.0 / (1.0 + 2.0 * beside);
-    vec2 side = beside * middle;
-    vec4 rows[4][2]; // the block's rows, filtered along x for the quad's two columns
+    vec2 side = beside / (1.0 + 2.0 * beside);
+    Light rows[4][2]; // the block's rows, filtered along x for the quad's two columns
     [[unroll]] for (int y = 0; y < 4; ++y) {
-        vec4 row[4];
+        Light row[4];
         [[unroll]] for (int x = 0; x < 4; ++x) {
-            row[x] = lightAt(first + ivec2(x, y) - 1);
+            row[x] = storedLight(pixelLights[pixelPlace(first + ivec2(x, y) - 1)]);
         }
         [[unroll]] for (int x = 0; x < 2; ++x) {
-            rows[y][x] = middle.x * row[x + 1] + side.x * row[x] + side.x * row[x + 2];
+            rows[y][x] = mixSides(row[x + 1], row[x], row[x + 2], Real(side.x));
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
-        add(sums[i], weight, middle.y * rows[y + 1][x] + side.y * rows[y][x] + side.y * rows[y + 2][x]);
+        add(sums[i], weight, vec4(mixSides(rows[y + 1][x], rows[y][x], rows[y + 2][x], Real(side.y))));
     }
 }
 
 // Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
 void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel) {
-    vec4 rows[3][2];
+    const Real quarter = Real(0.25);
+    Light rows[3][2];
     [[unroll]] for (int y = 0; y < 3; ++y) {
         int index = fineIndex(texel + ivec2(0, y - 1));
-        vec4 middle = unpackLight(levelLights[index]);
-        rows[y][0] = mix(middle, unpackLight(levelLights[index - 1]), 0.25);
-        rows[y][1] = mix(middle, unpackLight(levelLights[index + 1]), 0.25);
+        Light middle = storedLight(levelLights[index]);
+        rows[y][0] = middle + quarter * (storedLight(levelLights[index - 1]) - middle);
+        rows[y][1] = middle + quarter * (storedLight(levelLights[index + 1]) - middle);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        add(sums[i], weight, mix(rows[1][i & 1], rows[i >> 1 == 0 ? 0 : 2][i & 1], 0.25));
+        Light middle = rows[1][i & 1];
+        add(sums[i], weight, vec4(middle + quarter * (rows[i >> 1 == 0 ? 0 : 2][i & 1] - middle)));
     }
 }
 

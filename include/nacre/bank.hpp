@@ -17,8 +17,9 @@ inline constexpr int bankSize = bankLevels + 2;
 /// What share of each kernel makes up a profile: weights[kernel][channel] ≥ 0, summing to 1 over the kernels.
 using BankWeights = std::array<Rgb, bankSize>;
 
-/// Variance of a kernel along one axis, px². Level l ≥ 2: 4^l · 5/4 = (4^l − 1)/12 + 4^l + (4^l/6 + 1/12): the box of the
-/// reduction, the 5x5 binomial, and the bilinear tent read at pixel centres. Level 1, with a 3x3 binomial: 3.
+/// Variance of a kernel along one axis, px². Level l ≥ 2: 4^l · 5/4 = (4^l − 1)/12 + 4^l + (4^l/6 + 1/12): the box of
+/// the reduction, the 5x5 binomial, and the bilinear tent read at pixel centres. Level 1, with a 3x3 mean in place of
+/// the binomial: 11/3.
 double bankVariance(int kernel);
 
 /// Edge response of a kernel on the pixel grid: element k is the share of light that crosses k + ½ px, 0 ≤ k < 256.

@@ -200,6 +200,9 @@ typedef struct NacreContextInfo {
     void* userData;            /**< handed to messageCallback */
     NacreMemory deviceMemory;  /**< for the intermediates; null = the library allocates. nacreResize has to do with it, too */
     NacreMemory hostMemory;    /**< for materials and parameters; null = the library allocates */
+    VkBool32 shaderFloat16;    /**< the device was made with VkPhysicalDeviceVulkan12Features::shaderFloat16: where there
+                                    are no edges, bank then interpolates in half floats, which is faster (docs/scatter.md).
+                                    NACRE_ERROR_UNSUPPORTED_DEVICE where physicalDevice lacks the feature */
 } NacreContextInfo;
 
 /** One layer of a material: adds weight · exp(-r² / 2 variance) / (2 pi variance). */

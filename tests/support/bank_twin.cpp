@@ -237,15 +237,15 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
 
 // A texel's kernel where it stands on a surface at this depth.
 BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
-    constexpr double finest[] = {0, 1 / 3.0, 1 / 3.0, 1 / 3.0, 0};
-    constexpr double coarse[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
-    const double* binomial = level == 1 ? finest : coarse;
+    constexpr double mean[] = {0, 1 / 3.0, 1 / 3.0, 1 / 3.0, 0};
+    constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+    const double* blur = level == 1 ? mean : binomial;
     const double width = texelWidth(level, depth);
     Rgb light{};
     double area = 0;
     for (int i = 0; i < 50; ++i) {
         const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
-        const double kernel = binomial[i % 5] * binomial[i / 5 % 5];
+        const double kernel = blur[i % 5] * blur[i / 5 % 5];
         const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2);
         if (tap == nullptr || tap->mass <= 0) {
             continue;

@@ -107,7 +107,7 @@ TEST(BankProjection, AKernelOfTheBankIsItself) {
     for (int kernel = 2; kernel < bankSize; ++kernel) {
         const SumOfGaussiansProfile profile(std::vector<Layer>{{{1, 1, 1}, bankVariance(kernel)}});
         const BankWeights weights = projectOnBank(profile, 1);
-        EXPECT_GT(weights[kernel][1], 0.9) << "kernel " << kernel;
+        EXPECT_GT(weights[kernel][1], 0.75) << "kernel " << kernel; // level 1's is not as close to a Gaussian
         EXPECT_LT(largestEdgeError(profile, weights, 1), 0.01) << "kernel " << kernel;
     }
 }

@@ -153,6 +153,11 @@ Gpu::Gpu(bool validation) {
     queueInfo.queueFamilyIndex = queueFamily;
     queueInfo.queueCount = 1;
     queueInfo.pQueuePriorities = &priority;
+    VkPhysicalDeviceVulkan12Features offered{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 query{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &offered, {}};
+    vkGetPhysicalDeviceFeatures2(physicalDevice, &query);
+    shaderFloat16 = offered.shaderFloat16;
+    requirements.features12.shaderFloat16 = offered.shaderFloat16;
     VkDeviceCreateInfo deviceInfo{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     deviceInfo.pNext = &requirements.features12;
     deviceInfo.queueCreateInfoCount = 1;

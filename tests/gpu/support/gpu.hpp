@@ -104,6 +104,7 @@ public:
     VkQueue queue = VK_NULL_HANDLE;
     VkCommandPool commandPool = VK_NULL_HANDLE;
     std::uint32_t queueFamily = 0;
+    VkBool32 shaderFloat16 = VK_FALSE; ///< enabled where the device has it
     VkPhysicalDeviceProperties properties{};
 
 private:

@@ -1,7 +1,7 @@
 // effect_timing: GPU times of the scatter techniques and of transmit on synthetic scenes, beside a copy pass, as a
 // table and CSV.
 //   effect_timing [--suite scenes|targets|footprint|layers|materials|transmit|all] [--size WxH] [--csv FILE]
-//                 [--rounds N]
+//                 [--rounds N] [--shader-float16 on|off]
 // Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 20 steady repeats.
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/gpu/timing/copy_pass.hpp"
@@ -30,6 +30,7 @@ struct Options {
     std::string csv = "effect_timing.csv";
     VkExtent2D extent{1920, 1080}; // targets are measured at twice that, too
     MeasureSettings measure;
+    bool shaderFloat16 = true; // where the device has it
 };
 
 // What is on the screen.
@@ -148,6 +149,7 @@ void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechn
     }
     NacreContextInfo info = gpu.contextInfo(subject.extent);
     info.recordsPerFrame = options.measure.repeats;
+    info.shaderFloat16 = options.shaderFloat16 && gpu.shaderFloat16;
     info.maxMaterials = static_cast<std::uint32_t>(scene.materials.size());
     info.techniques = 0;
     for (const NacreTechnique technique : techniques) {
@@ -316,6 +318,8 @@ Options parse(int count, char** arguments) {
             options.csv = value;
         } else if (name == "--rounds" && std::atoi(value.c_str()) > 0) {
             options.measure.rounds = static_cast<std::uint32_t>(std::atoi(value.c_str()));
+        } else if (name == "--shader-float16" && (value == "on" || value == "off")) {
+            options.shaderFloat16 = value == "on";
         } else if (name == "--size" &&
                    std::sscanf(value.c_str(), "%ux%u", &options.extent.width, &options.extent.height) == 2) {
             continue;
@@ -332,7 +336,8 @@ int main(int count, char** arguments) {
     try {
         const Options options = parse(count, arguments);
         Gpu gpu(false);
-        std::printf("%s, driver %u\n", gpu.properties.deviceName, gpu.properties.driverVersion);
+        std::printf("%s, driver %u, half floats %s\n", gpu.properties.deviceName, gpu.properties.driverVersion,
+                    options.shaderFloat16 && gpu.shaderFloat16 ? "on" : "off");
         std::vector<Row> rows;
         const std::pair<const char*, void (*)(Gpu&, const Options&, std::vector<Row>&)> suites[] = {
             {"scenes", runScenes}, {"targets", runTargets},     {"footprint", runFootprints},
