@@ -1,6 +1,7 @@
 // Pass B of `bank`: blurs every level along the surface: level 1 with a 3x3 mean, 16x16 texels a workgroup, two a thread,
-// the others with a 5x5 binomial, 16x8 texels, one a thread; all levels in one dispatch, coarsest first (the few coarse workgroups would else be a serial
-// tail); lists the regions that hold subsurface pixels for pass C. docs/scatter.md.
+// the others with a 5x5 binomial, 16x8 texels, one a thread; all levels in one dispatch, coarsest first
+// (the few coarse workgroups would else be a serial tail); lists the regions that hold subsurface pixels for pass C.
+// docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

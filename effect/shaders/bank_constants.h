@@ -24,8 +24,7 @@ const float bankFinestSeparation = 2.0f;
 // Reduction: a 2x2 block is plain, and reduced without asking for surfaces, when no depth step from pixel to pixel, in it
 // and beside it, is longer than this many pixel widths. Up to 1.55 no texel of any level can then hold two surfaces.
 const float bankPlainStep = 1.5f;
-// Blur: q = Δz² / (bankBlurDepthVariance · t²). Twice half the variance (in texels) of a whole level
-// would be 1.25: −0.4 dB.
+// Blur: q = Δz² / (bankBlurDepthVariance · t²). With 2: +0.2 dB, but −0.3 to −0.9 dB on the models; with 1: −0.4 dB.
 const float bankBlurDepthVariance = 1.4f;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
 const float bankLevelDepthVariance = 8.0f;
@@ -41,7 +40,7 @@ const float bankPixelDepthVariance = 2.0f;
 const float bankLargestArea = 8.0f;
 // Sums of weights are not divided by less than this: where every tap is on another surface the light fades out.
 const float bankLeastWeight = 1e-6f;
-// A region of 32x16 px whose level 1, with two texels around, changes by less than this many texel widths in depth from
+// A region of 32x16 px whose level 1, with one texel around, changes by less than this many texel widths in depth from
 // texel to texel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines").
 // 3 is a slope of 72 degrees. With 1.2, 50 degrees, tilted sheets take 100 µs more (1920x1080, NVIDIA H200), and no case
 // changes by more than 0.3 dB.
