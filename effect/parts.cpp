@@ -84,6 +84,9 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.file = pass.file;
     result.spirv = pass.spirv.data();
     result.spirvSize = pass.spirv.size_bytes();
+    result.halfFile = pass.halfFile;
+    result.halfSpirv = pass.halfSpirv.data();
+    result.halfSpirvSize = pass.halfSpirv.size_bytes();
     result.reads = bindingBits(pass.reads);
     result.writes = bindingBits(pass.writes);
     result.perMaterial = perMaterial;

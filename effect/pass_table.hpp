@@ -52,7 +52,9 @@ struct Pass {
     const char* name; ///< debug label and timestamp name
     const char* file; ///< what nacre_shader calls it
     std::span<const std::uint32_t> spirv;
-    std::span<const std::uint32_t> halfSpirv = {}; ///< in its place with NacreContextInfo::shaderFloat16; empty = none
+    /// In its place with NacreContextInfo::shaderFloat16; null, empty = none.
+    const char* halfFile = nullptr;
+    std::span<const std::uint32_t> halfSpirv = {};
     IntermediateSet reads = 0;
     IntermediateSet writes = 0;
     /// Workgroups for a render area, in px.

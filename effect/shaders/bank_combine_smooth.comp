@@ -1,5 +1,6 @@
 // Pass C of `bank` for regions without depth discontinuities: every pixel's mixture of the identity, the
-// full-resolution 3x3 and the six blurred levels, with its material's weights. docs/scatter.md.
+// full-resolution 3x3 and the six blurred levels, with its material's weights. With HALF_FLOATS light is
+// interpolated in half floats. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -66,6 +66,9 @@ typedef struct NacrePass {
                                       the translations. Static storage */
     const uint32_t* spirv;       /**< Vulkan 1.2. Static storage */
     size_t spirvSize;            /**< bytes */
+    const char* halfFile;        /**< as file, of the same pass with half floats, for devices with shaderFloat16; null = none */
+    const uint32_t* halfSpirv;   /**< as spirv; null = none */
+    size_t halfSpirvSize;        /**< bytes */
     uint32_t reads;              /**< intermediates, bits 1u << NacreBinding::binding */
     uint32_t writes;             /**< likewise */
     VkBool32 perMaterial;        /**< run for every material's slot */

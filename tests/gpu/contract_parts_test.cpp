@@ -163,6 +163,13 @@ TEST_F(PartsTest, ListsNameWhatAContextHas) {
         for (const NacrePass& pass : passes) {
             perMaterial += pass.perMaterial ? 1 : 0;
             EXPECT_EQ(pass.indirectBinding == 0, pass.groups.width > 0) << pass.name;
+            const bool hasHalf = std::string(pass.name) == "nacre bank combine smooth";
+            ASSERT_EQ(pass.halfSpirv != nullptr, hasHalf) << pass.name;
+            if (hasHalf) {
+                EXPECT_STREQ(pass.halfFile, "bank_combine_smooth_half");
+                EXPECT_GT(pass.halfSpirvSize, 20u);
+                EXPECT_EQ(pass.halfSpirv[0], 0x07230203u); // SPIR-V's magic number
+            }
         }
         EXPECT_EQ(perMaterial, cost.dispatchesPerMaterial);
         EXPECT_EQ(count, cost.passCount + (perMaterial > 0 ? perMaterial - 1 : 0));
