@@ -40,8 +40,8 @@ const uint noShadowMap = 0xffffffffu;
 const float leastCosine = 0.2;
 // [1] Longest step along the receiver's plane, over texel size, that taps follow.
 const float steepestPlane = 4.0;
-// [1] scale·d of the transmittance table at which nearness is 1/2. Least errors for the presets, which
-// grow little from 3 to 12.
+// [1] scale·d of the transmittance table at which nearness is 1/2. Errors for the presets are least here, and grow little
+// from 3 to 12.
 const float nearnessHalf = 6.0;
 
 struct Receiver {
@@ -217,8 +217,8 @@ void addNodesTransmittance(uint material, float middle, vec4 moments, inout vec3
     addNearnessTransmittance(material, middle + mean + skew - root, moments.x - before, sum);
 }
 
-// Weighted sum over 4x4 slabs. Two nodes on either side of their mean stand for them, for to look up each slab would
-// cost more than all else here. Where they have two thicknesses, as at a silhouette, the sum is exact.
+// Weighted sum over 4x4 slabs. Two nodes on either side of their mean stand for them: four look-ups in place of 16. Where
+// they have two thicknesses, as at a silhouette, the sum is exact (docs/theory.md, "Sums of Gaussians").
 vec3 nodesTransmittance(uint material, mat4 thickness, vec4 columnWeights, vec4 rowWeights) {
     mat4 nearness = mat4(nearnessOf(material, thickness[0]), nearnessOf(material, thickness[1]),
                          nearnessOf(material, thickness[2]), nearnessOf(material, thickness[3]));
