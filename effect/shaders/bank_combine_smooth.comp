@@ -10,13 +10,8 @@
 const bool isEdge = false;
 #include "bank_combine.glsl"
 
-// A light with its share of those on either side.
-Light mixSides(Light middle, Light before, Light after, Real side) {
-    return middle + side * (before - middle) + side * (after - middle);
-}
-
 // The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
-// middle in x and y.
+// middle in x and y. Rows are mixed in floats: fewer roundings.
 void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
     vec2 side = beside / (1.0 + 2.0 * beside);
     Light rows[4][2]; // the block's rows, filtered along x for the quad's two columns
@@ -26,13 +21,16 @@ void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
             row[x] = storedLight(pixelLights[pixelPlace(first + ivec2(x, y) - 1)]);
         }
         [[unroll]] for (int x = 0; x < 2; ++x) {
-            rows[y][x] = mixSides(row[x + 1], row[x], row[x + 2], Real(side.x));
+            Light middle = row[x + 1];
+            rows[y][x] = middle + Real(side.x) * (row[x] - middle) + Real(side.x) * (row[x + 2] - middle);
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
-        add(sums[i], weight, vec4(mixSides(rows[y + 1][x], rows[y][x], rows[y + 2][x], Real(side.y))));
+        vec4 middle = vec4(rows[y + 1][x]);
+        add(sums[i], weight,
+            middle + side.y * (vec4(rows[y][x]) - middle) + side.y * (vec4(rows[y + 2][x]) - middle));
     }
 }
 
@@ -47,8 +45,8 @@ void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel) {
         rows[y][1] = middle + quarter * (storedLight(levelLights[index + 1]) - middle);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        Light middle = rows[1][i & 1];
-        add(sums[i], weight, vec4(middle + quarter * (rows[i >> 1 == 0 ? 0 : 2][i & 1] - middle)));
+        vec4 middle = vec4(rows[1][i & 1]);
+        add(sums[i], weight, mix(middle, vec4(rows[i >> 1 == 0 ? 0 : 2][i & 1]), 0.25));
     }
 }
 

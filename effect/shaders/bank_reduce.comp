@@ -309,8 +309,9 @@ void reducePlainTile(ivec2 tile, int thread) {
     }
 }
 
-// A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters.
-void emptyTile(Block block, ivec2 tile, ivec2 texel, ivec2 first, int thread) {
+// A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters. It is fetched once
+// more, row by row, so that it is stored so, too.
+void emptyTile(ivec2 tile, ivec2 texel, int thread) {
     bool hasAlbedo = hasFlag(flagAlbedo);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 local = tile * tileSize + ivec2(thread % tileSize, thread / tileSize + 4 * i);
@@ -360,7 +361,7 @@ void main() {
         beginTile(tile);
     }
     if (occupied == 0u) {
-        emptyTile(block, tile, texel, first, thread);
+        emptyTile(tile, texel, thread);
         return;
     }
     decodeBlock(block, first);
