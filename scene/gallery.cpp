@@ -134,7 +134,10 @@ void addExhibits(Scene& scene) {
     }
 }
 
-void addLights(Scene& scene, GalleryLight which) {
+} // namespace
+
+std::vector<Light> galleryLights(GalleryLight which) {
+    std::vector<Light> lights;
     if (which != GalleryLight::Back) {
         Light key;
         key.name = "front key";
@@ -149,7 +152,7 @@ void addLights(Scene& scene, GalleryLight which) {
         fill.color = {0.80f, 0.88f, 1};
         fill.intensity = 1.6f;
         fill.position = {0.75f, 0.45f, 0.95f};
-        scene.lights.insert(scene.lights.end(), {key, fill});
+        lights.insert(lights.end(), {key, fill});
     }
     if (which != GalleryLight::Front) {
         Light back;
@@ -161,18 +164,17 @@ void addLights(Scene& scene, GalleryLight which) {
         back.direction = glm::normalize(glm::vec3(0, 0.14f, 0) - back.position);
         back.innerConeAngle = glm::radians(20.f);
         back.outerConeAngle = glm::radians(27.f);
-        scene.lights.push_back(back);
+        lights.push_back(back);
     }
+    return lights;
 }
-
-} // namespace
 
 Scene makeGallery(GalleryLight light) {
     Scene scene;
     scene.name = "gallery";
     addStage(scene);
     addExhibits(scene);
-    addLights(scene, light);
+    scene.lights = galleryLights(light);
     Camera camera;
     camera.name = "gallery";
     camera.position = {0, 0.30f, 1.75f};

@@ -14,4 +14,7 @@ enum class GalleryLight { Front, Back, Both };
 /// The triangle count includes everything drawn: bodies, pot, plinth and ground. Some seconds of work on two cores.
 Scene makeGallery(GalleryLight light = GalleryLight::Both);
 
+/// Its lights alone, at once.
+std::vector<Light> galleryLights(GalleryLight light);
+
 } // namespace nacre::scene
