@@ -41,6 +41,7 @@ const int secondLevels = separateMaterials ? 0 : bankSecondLevels;
 const int secondLevels = 0;
 #endif
 const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a side in each tile
+const uint edgeParts = 4u; // workgroups that combine an edge region of 32x16 px
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
 const uint secondBit = secondLevels > 0 ? 0x4000u : 0u; // of a raw texel's last word: it has a second surface

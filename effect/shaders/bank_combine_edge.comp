@@ -1,148 +1,139 @@
-// Pass C of `bank` for regions with depth discontinuities, or where materials are separate: as the smooth pipeline, with
-// depth weights tap by tap where surfaces meet. docs/scatter.md.
+// Pass C of `bank` for regions with depth discontinuities, or where materials are separate: the same mixture as the smooth
+// pipeline's, a pixel a thread, with depth weights tap by tap where surfaces meet. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// The quad's pixels that share a material and a surface, with the mixture taken at the first of them.
-struct Group {
-    ivec2 region; // px
-    ivec2 quad;   // px
-    ivec2 first;  // the quad, counted from the pixel up and left of the region's first
-    vec4 depths;
-    bvec4 members;
-    uint material;
-    float depth;
-};
-
-// Two neighbouring pixels of a row, light times area and area.
-struct Pair {
-    vec4 left;
-    vec4 right;
-};
+// Fetches everything before anything is used, so that the fetches overlap: one half of the threads level 1 and the pixels
+// around, the other the coarser levels. Returns the material of the thread's pixel.
+uint loadRegion(ivec2 region, int thread, ivec2 local) {
+    Fetched own = fetchPixel(region, local);
+    bool isFine = thread < threads / 2;
+    int count = isFine ? fineCount : coarseCount;
+    int texel = thread % (threads / 2);
+    int place = min(texel, count - 1);
+    int level = 1;
+    int index;
+    ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
+    Fetched ringPixel;
+    if (isFine) {
+        index = globalIndex(1, (region >> 1) + ivec2(place % finePitch, place / finePitch) - 1);
+        ringPixel = fetchPixel(region, ring);
+    } else {
+        index = coarseIndex(place, region, level);
+        place += fineCount;
+    }
+    uvec2 light = blurredLights[index];
+    uvec2 surface = rawTexels[index].zw;
+    if (texel < count) {
+        storeLevelTexel(place, level, light);
+        storeSurfaces(place, index, surface, light);
+    }
+    if (thread < ringCount) {
+        storeFetched(region, ring, ringPixel);
+    }
+    return storeFetched(region, local, own);
+}
 
 // Fourth roots of ½ and ¼, the weights along an axis of the middle of the full-resolution 3x3 and of what is beside it.
 const float middleRoot = 0.84089642;
 const float besideRoot = 0.70710678;
 
-void addTap(inout vec4 sum, vec4 lightAndArea, float depth, float ownDepth, float root, float scale) {
-    float difference = depth - ownDepth;
-    float base = max(0.0, root - difference * difference * (root * scale));
-    base *= base;
-    sum += base * base * lightAndArea;
-}
-
-// The full-resolution 3x3 of two neighbouring pixels, not yet divided: of `row` of the quad.
-Pair blurPair(Group group, int row, vec2 ownDepths, float scale) {
-    Pair sums = Pair(vec4(0.0), vec4(0.0));
-    [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
-        float rootY = y == 0 ? middleRoot : besideRoot;
-        [[unroll]] for (int x = -1; x <= 2; ++x) {
-            int place = pixelPlace(group.first + ivec2(x, row + y));
-            vec4 light = unpackLight(pixelLights[place]);
-            bool taken = light.w > 0.0;
-            if (separateMaterials) {
-                taken = taken && exchanges(pixelMaterials[place], group.material);
-            }
-            float depth = taken ? pixelDepths[place] : 1e30;
-            float area = pixelAreas[place];
-            vec4 lightAndArea = vec4(light.rgb * area, area);
-            if (x <= 1) {
-                addTap(sums.left, lightAndArea, depth, ownDepths.x, rootY * (x == 0 ? middleRoot : besideRoot), scale);
-            }
-            if (x >= 0) {
-                addTap(sums.right, lightAndArea, depth, ownDepths.y, rootY * (x == 1 ? middleRoot : besideRoot), scale);
-            }
+// The full-resolution 3x3.
+void addPixels(inout Sum sum, vec3 weight, ivec2 middle, uint material, float depth) {
+    float width = texelWidth(0, depth);
+    float scale = 0.25 / (bankPixelDepthVariance * width * width);
+    vec4 lightAndArea = vec4(0.0);
+    [[unroll]] for (int i = 0; i < 9; ++i) {
+        ivec2 offset = ivec2(i % 3, i / 3) - 1;
+        int place = pixelPlace(middle + offset);
+        vec4 light = unpackLight(pixelLights[place]);
+        bool taken = light.w > 0.0;
+        if (separateMaterials) {
+            taken = taken && exchanges(pixelMaterials[place], material);
         }
+        float difference = taken ? pixelDepths[place] - depth : 1e15;
+        float root = (offset.x == 0 ? middleRoot : besideRoot) * (offset.y == 0 ? middleRoot : besideRoot);
+        float base = max(0.0, root - difference * difference * (root * scale));
+        base *= base;
+        lightAndArea += base * base * pixelAreas[place] * vec4(light.rgb, 1.0);
     }
-    return sums;
-}
-
-void addBlurred(inout Sum sum, vec3 weight, vec4 lightAndArea) {
     float mass = massOf(lightAndArea.w);
     add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
 }
 
-// The full-resolution 3x3.
-void addPixels(inout Sum sums[4], vec3 weight, Group group) {
-    float width = texelWidth(0, group.depth);
-    float scale = 0.25 / (bankPixelDepthVariance * width * width);
-    const Pair none = Pair(vec4(0.0), vec4(0.0));
-    Pair upper = none;
-    Pair lower = none;
-    [[dont_unroll]] for (int row = 0; row < 2; ++row) {
-        upper = lower;
-        lower = blurPair(group, row, row == 0 ? group.depths.xy : group.depths.zw, scale);
-    }
-    addBlurred(sums[0], weight, upper.left);
-    addBlurred(sums[1], weight, upper.right);
-    addBlurred(sums[2], weight, lower.left);
-    addBlurred(sums[3], weight, lower.right);
+void addTap(inout Taps taps, float share, uvec2 light, uvec2 surface, float depth, float scale, uint material) {
+    float distance = uintBitsToFloat(surface.x) - depth;
+    float weight = share * surfaceWeight(surface, distance, scale, material);
+    taps.light += weight * weightedLight(light);
+    taps.total += weight;
+    taps.away += weight * distance;
 }
 
-// The levels whose texels are hardly larger than a pixel: every pixel looks from its own depth.
-void addFineLevels(inout Sum sums[4], Mixture mixture, Group group) {
-    [[dont_unroll]] for (int level = 1; level <= ownDepthLevels; ++level) {
-        vec3 weight = kernelWeight(mixture, level + 1);
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            Corner corner = levelCorner(level, group.region, group.quad + ivec2(i & 1, i >> 1));
-            Tap taps[4] = cornerTaps(level, corner, group.depths[i], group.material);
-            Tap upper = mixTaps(taps[0], taps[1], corner.fraction.x);
-            Tap lower = mixTaps(taps[2], taps[3], corner.fraction.x);
-            addTap(sums[i], weight, mixTaps(upper, lower, corner.fraction.y), 0.0, levelScale(level, group.depths[i]));
+// Adds a level with depth weights.
+void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, float depth, uint material) {
+    float scale = levelScale(level, depth);
+    vec2 rest = 1.0 - corner.fraction;
+    Taps taps = Taps(vec4(0.0), 0.0, 0.0);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int place = corner.place + (i & 1) + (i >> 1) * levelPitch[level].x;
+        uvec2 surface = levelSurfaces[place];
+        float share = ((i & 1) == 0 ? rest.x : corner.fraction.x) * (i < 2 ? rest.y : corner.fraction.y);
+        addTap(taps, share, levelLights[place], surface, depth, scale, material);
+        if (hasSecond(place, surface)) {
+            addTap(taps, share, secondLights[place], secondSurfaceWords[place], depth, scale, material);
         }
     }
+    addTaps(sum, weight, taps, scale);
 }
 
-void combineGroup(Group group) {
-    Mixture mixture = findMixture(group.material, group.depth);
-    Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-    addIdentity(sums, mixture, group.first);
-    addPixels(sums, kernelWeight(mixture, 1), group);
-    addFineLevels(sums, mixture, group);
-    addCoarseLevels(sums, mixture, group.region, group.quad, group.depth, group.depths - group.depth, group.material);
-    storeGroup(group.quad, group.first, group.members, group.material, mixture.strength, sums);
+// Adds a level with bilinear weights.
+void addPlainLevel(inout Sum sum, vec3 weight, int level, Corner corner) {
+    int below = corner.place + levelPitch[level].x;
+    vec4 upper = mix(unpackLight(levelLights[corner.place]), unpackLight(levelLights[corner.place + 1]), corner.fraction.x);
+    vec4 lower = mix(unpackLight(levelLights[below]), unpackLight(levelLights[below + 1]), corner.fraction.x);
+    add(sum, weight, mix(upper, lower, corner.fraction.y));
+}
+
+void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 pixel, float depth, uint material) {
+    [[dont_unroll]] for (int level = 1; level <= bankLevels; ++level) {
+        vec3 weight = kernelWeight(mixture, level + 1);
+        if (weight != vec3(0.0)) {
+            Corner corner = levelCorner(level, region, pixel);
+            if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
+                addPlainLevel(sum, weight, level, corner);
+            } else {
+                addWeightedLevel(sum, weight, level, corner, depth, material);
+            }
+        }
+    }
 }
 
 void main() {
-    Group group;
-    if (!findRegion(1, group.region)) {
+    ivec2 region;
+    if (!findRegion(1, region)) {
         return;
     }
     int thread = int(gl_LocalInvocationIndex);
-    ivec2 texel = ivec2(gl_LocalInvocationID.xy);
+    ivec2 local = ivec2(gl_LocalInvocationID.xy);
     if (thread == 0) {
-        roughLevels = 0u;
+        roughLevels = 2u;
     }
     barrier();
-    Quad quad = loadRegion(group.region, thread, texel);
+    uint material = loadRegion(region, thread, local);
     barrier();
-    group.quad = group.region + 2 * texel;
-    group.first = 2 * texel + 1;
-    uint ownMaterials[4];
-    uint left = 0u; // bits of the pixels that are still to be combined
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 offset = ivec2(i & 1, i >> 1);
-        group.depths[i] = pixelDepths[pixelPlace(group.first + offset)];
-        ownMaterials[i] = group.depths[i] > 0.0 ? pixelMaterial(quad.materials, offset) : 0u;
-        left |= ownMaterials[i] != 0u ? 1u << i : 0u;
+    ivec2 place = local + 1;
+    float depth = pixelDepths[pixelPlace(place)]; // 0 where there is no material
+    if (depth > 0.0) {
+        Mixture mixture = findMixture(material, depth);
+        Sum sums[1] = Sum[](noSum);
+        addIdentity(sums, mixture, place);
+        addPixels(sums[0], kernelWeight(mixture, 1), place, material, depth);
+        addLevels(sums[0], mixture, region, region + local, depth, material);
+        storeGroup(region + local, place, bvec4(true), material, mixture.strength, sums);
+    } else {
+        storeRest(region + local, 0u);
     }
-    // One round for every material and surface in the quad.
-    while (left != 0u) {
-        int leader = findLSB(left);
-        group.material = leader < 2 ? (leader == 0 ? ownMaterials[0] : ownMaterials[1])
-                                    : (leader == 2 ? ownMaterials[2] : ownMaterials[3]);
-        group.depth = leader < 2 ? (leader == 0 ? group.depths.x : group.depths.y)
-                                 : (leader == 2 ? group.depths.z : group.depths.w);
-        float separation = bankSurfaceSeparation * texelWidth(1, group.depth);
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            group.members[i] = (left >> i & 1u) != 0u && ownMaterials[i] == group.material &&
-                               abs(group.depths[i] - group.depth) <= separation;
-            left &= group.members[i] ? ~(1u << i) : ~0u;
-        }
-        combineGroup(group);
-    }
-    storeRest(group.quad, ownMaterials);
 }

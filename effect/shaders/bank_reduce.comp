@@ -336,7 +336,7 @@ void beginTile(ivec2 tile) {
     tileEntries[tileIndex(tile)] = occupied;
     if (tile == ivec2(0)) {
         dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
-        dispatches[1] = BankDispatch(0u, 1u, 1u, 0u);
+        dispatches[1] = BankDispatch(0u, 1u, edgeParts, 0u);
     }
 }
 

@@ -136,10 +136,12 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
         }
     }
     result_ = scene.irradiance;
-    for (int y = 0; y < scene.height; y += 2) {
-        for (int x = 0; x < scene.width; x += 2) {
+    for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
             const int tile = y / tileSize * tilesX_ + x / tileSize;
-            combineQuad(x, y, regionKinds_[2 * tile + y / regionHeight % 2] == 1);
+            if (raw_[0].at(x, y)->mass > 0) {
+                combinePixel(x, y, regionKinds_[2 * tile + y / regionHeight % 2] == 1);
+            }
         }
     }
 }
@@ -313,50 +315,28 @@ bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
     return settings_.smoothTiles;
 }
 
-// The pixels of a 2x2 quad that have one material and lie on one surface share their weights, taken at the first of
-// them, and on the coarser levels their texels' depth weights.
-void BankTwin::combineQuad(int quadX, int quadY, bool smooth) {
-    std::array<bool, 4> done{};
-    for (int leader = 0; leader < 4; ++leader) {
-        const RawTexel* first = raw_[0].at(quadX + leader % 2, quadY + leader / 2);
-        if (first == nullptr || first->mass <= 0 || done[leader]) {
-            continue;
-        }
-        const double depth = smooth ? raw_[1].at(quadX / 2, quadY / 2)->depth : first->depth;
-        const int material = scene_.materialId[scene_.index(quadX + leader % 2, quadY + leader / 2)];
-        const BankWeights weights = tables_[material - 1].at(scene_.focalLength / depth);
-        Rgb identity = weights[0];
-        for (double& share : identity) {
-            share = std::max<double>(share, constants::bankLeastIdentity);
-        }
-        for (int i = leader; i < 4; ++i) {
-            const int x = quadX + i % 2;
-            const int y = quadY + i / 2;
-            const RawTexel* pixel = raw_[0].at(x, y);
-            const double separation = constants::bankSurfaceSeparation * texelWidth(1, depth);
-            if (pixel == nullptr || done[i] || scene_.materialId[scene_.index(x, y)] != material ||
-                (!smooth && std::abs(pixel->depth - depth) > separation)) {
-                continue;
-            }
-            done[i] = true;
-            Accumulator sum;
-            sum.add(identity, scene_.irradiance[scene_.index(x, y)], 1);
-            if (smooth) {
-                addPixelsOnSlope(sum, weights[1], x, y);
-            } else {
-                addPixels(sum, weights[1], x, y);
-            }
-            for (int level = 1; level <= bankLevels; ++level) {
-                const bool ownDepth = !smooth && level <= (settings_.secondSurfaces ? 2 : 1);
-                const Standpoint quad{depth, smooth ? 0 : pixel->depth - depth, smooth};
-                const Standpoint own{pixel->depth, 0, smooth};
-                addLevel(sum, weights[level + 1], level, x, y, ownDepth ? own : quad);
-            }
-            for (int channel = 0; channel < 3; ++channel) {
-                result_[scene_.index(x, y)][channel] = sum.mass[channel] > 0
-                                                           ? sum.light[channel] / sum.mass[channel]
-                                                           : scene_.irradiance[scene_.index(x, y)][channel];
-            }
+// In smooth regions the pixels of a 2x2 quad share its depth for their weights and for their texels' depth weights.
+void BankTwin::combinePixel(int x, int y, bool smooth) {
+    const std::size_t index = scene_.index(x, y);
+    const double depth = smooth ? raw_[1].at(x / 2, y / 2)->depth : raw_[0].at(x, y)->depth;
+    const BankWeights weights = tables_[scene_.materialId[index] - 1].at(scene_.focalLength / depth);
+    Rgb identity = weights[0];
+    for (double& share : identity) {
+        share = std::max<double>(share, constants::bankLeastIdentity);
+    }
+    Accumulator sum;
+    sum.add(identity, scene_.irradiance[index], 1);
+    if (smooth) {
+        addPixelsOnSlope(sum, weights[1], x, y);
+    } else {
+        addPixels(sum, weights[1], x, y);
+    }
+    for (int level = 1; level <= bankLevels; ++level) {
+        addLevel(sum, weights[level + 1], level, x, y, {depth, smooth});
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+        if (sum.mass[channel] > 0) {
+            result_[index][channel] = sum.light[channel] / sum.mass[channel];
         }
     }
 }
@@ -464,7 +444,7 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         away += tapWeight * difference;
     }
     total = std::max<double>(total, constants::bankLeastWeight);
-    const double distance = (away / total - from.offset) / width;
+    const double distance = away / total / width;
     const double share = falloff(distance * distance / awayVariance);
     for (double& value : light) {
         value *= share / total;

@@ -54,11 +54,10 @@ public:
 
 private:
     struct Accumulator;
-    /// What a quad's pixels share when they read a level.
+    /// What a pixel reads the levels from.
     struct Standpoint {
-        double depth;  ///< mm, which depth weights are taken from
-        double offset; ///< mm, how far behind that the pixel is
-        bool smooth;   ///< the finest level has no depth weights
+        double depth; ///< mm, which depth weights are taken from
+        bool smooth;  ///< the finest level has no depth weights
     };
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
@@ -69,7 +68,7 @@ private:
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
     bool hasHole(int x, int y) const;
     bool isSmooth(int tileX, int tileY, int half) const;
-    void combineQuad(int quadX, int quadY, bool smooth);
+    void combinePixel(int x, int y, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
