@@ -5,7 +5,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 16, local_size_y = 8) in;
 layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
     TransmitParameters parameters;
 };
@@ -271,21 +271,23 @@ mat2x3 planeSteps(ShadowPoint point, vec3 normal) {
     return mat2x3(alongX, alongY) * (scale * sign(determinant));
 }
 
-// Linear depth of the plane's points under 4x4 taps at x and y from its middle: a polynomial's values, or their roots.
+// Linear depth of the plane's points under 4x4 taps at x and y from its middle: constant + slope·y + square.
 struct PlaneDepths {
     vec4 constant, slope; // per column
     vec4 square;          // per row
-    bool root;
 };
 
+// A distance from the light is expanded to second order: a tap is far closer to the middle than the middle is to the light.
 PlaneDepths planeDepths(LightParameters light, vec3 offset, mat2x3 steps, vec4 x, vec4 y) {
-    if (light.kind == lightDirectional) {
-        vec2 slope = light.direction.xyz * steps;
-        return PlaneDepths(dot(offset, light.direction.xyz) + slope.x * x, vec4(slope.y), vec4(0.0), false);
-    }
-    vec2 slope = 2.0 * (offset * steps);
-    return PlaneDepths(dot(offset, offset) + x * (slope.x + dot(steps[0], steps[0]) * x),
-                       slope.y + 2.0 * dot(steps[0], steps[1]) * x, dot(steps[1], steps[1]) * y * y, true);
+    bool isDirectional = light.kind == lightDirectional;
+    vec3 direction = isDirectional ? light.direction.xyz : normalize(offset);
+    float depth = dot(offset, direction);
+    vec2 gradient = direction * steps;
+    float halfCurvature = isDirectional ? 0.0 : 0.5 / depth;
+    vec3 second = halfCurvature * vec3(dot(steps[0], steps[0]) - gradient.x * gradient.x,
+                                       2.0 * (dot(steps[0], steps[1]) - gradient.x * gradient.y),
+                                       dot(steps[1], steps[1]) - gradient.y * gradient.y);
+    return PlaneDepths(depth + x * (gradient.x + second.x * x), gradient.y + second.y * x, second.z * y * y);
 }
 
 // Texels of the 4 taps on an axis, and their weights.
@@ -315,9 +317,8 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
     mat4 thickness;
     for (int i = 0; i < 4; ++i) {
-        vec4 depths = plane.constant + plane.square[i] + plane.slope * y[i];
-        depths = plane.root ? sqrt(max(depths, 0.0)) : depths;
-        thickness[i] = clamp(depths + removed - stored[i] * range, 0.0, most);
+        vec4 depths = plane.constant + plane.slope * y[i];
+        thickness[i] = clamp(depths + (plane.square[i] + removed) - stored[i] * range, 0.0, most);
     }
     float mean = dot(thickness * rowWeights, columnWeights);
     return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
