@@ -6,12 +6,15 @@ namespace {
 constexpr VkAccessFlags shaderAccess = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
 
 /// Orders everything before against everything after; the images' old contents are dropped.
-void beginIntermediates(const PassRecording& recording, const Technique& technique) {
+void beginIntermediates(const PassRecording& recording) {
+    if (recording.intermediates == 0) {
+        return;
+    }
     std::array<VkImageMemoryBarrier, intermediateCount> images;
     std::uint32_t imageCount = 0;
     for (std::size_t i = 0; i < intermediateCount; ++i) {
         const VkImage image = recording.context.intermediates[i].image.image.get();
-        if ((technique.uses() >> i & 1u) == 0 || image == VK_NULL_HANDLE) {
+        if ((recording.intermediates >> i & 1u) == 0 || image == VK_NULL_HANDLE) {
             continue;
         }
         VkImageMemoryBarrier& barrier = images[imageCount++];
@@ -153,7 +156,7 @@ void recordPasses(const PassRecording& recording) {
     const Technique& technique = *techniques[recording.technique];
     const DispatchTable& vk = recording.context.device.vk;
     beginLabel(recording, technique.name);
-    beginIntermediates(recording, technique);
+    beginIntermediates(recording);
     vk.CmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, recording.programs.layout.get(),
                              0, 1, &recording.set, 0, nullptr);
     timestamp(recording, 0);

@@ -89,7 +89,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
-                  context.materials->slotCount(info.frame), separate, info.thesisBakedKernel != VK_FALSE});
+                  techniques[technique]->uses(), context.materials->slotCount(info.frame), separate,
+                  info.thesisBakedKernel != VK_FALSE});
 }
 
 } // namespace

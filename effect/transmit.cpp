@@ -101,9 +101,9 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     // From here on nothing fails.
     std::memcpy(record.mappedParameters, &parameters, sizeof(parameters));
     fillLights(info, record.mappedLights);
-    NacreImage noShadowMap{};
-    noShadowMap.view = context.intermediates[intermediateNoShadowMap].image.view.get();
-    noShadowMap.layout = VK_IMAGE_LAYOUT_GENERAL;
+    const std::span maps(info.shadowMaps, info.shadowMapCount);
+    const NacreImage noMap{.view = context.intermediates[intermediateNoShadowMap].image.view.get(),
+                           .layout = VK_IMAGE_LAYOUT_GENERAL};
     DescriptorWriter descriptors(record.set);
     descriptors.uniform(bindingParameters, record.parameters);
     descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
@@ -114,15 +114,15 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.sampled(bindingNormal, info.normal, info.normal);
     descriptors.sampled(bindingStrength, info.strength, info.normal);
     descriptors.sampled(bindingThickness, info.thickness, info.normal);
-    descriptors.sampledArray(bindingShadowMaps, std::span(info.shadowMaps, info.shadowMapCount), maxShadowMaps,
-                             noShadowMap);
+    descriptors.sampledArray(bindingShadowMaps, maps, maxShadowMaps, maps.empty() ? noMap : maps.front());
     descriptors.output(bindingTransmitted, info.transmitted);
     descriptors.output(bindingThicknessOut,
                        info.thicknessOut.view != VK_NULL_HANDLE ? info.thicknessOut : info.transmitted);
     descriptors.intermediates(context, context.transmit.intermediates);
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
-    recordPasses({context, context.transmit, transmitIndex, commandBuffer, record.set, area.extent, info.timestamps});
+    recordPasses({context, context.transmit, transmitIndex, commandBuffer, record.set, area.extent, info.timestamps,
+                  maps.empty() ? transmitTechnique.uses() : 0});
 }
 
 } // namespace

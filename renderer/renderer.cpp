@@ -206,13 +206,14 @@ void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& comma
                                             const View& view) {
     const Subsurface::Frame frame{frameIndex, view, gbuffer, timer};
     subsurface.beginFrame(frameIndex);
-    if (settings.transmit) {
-        const Label label(gpu, commandBuffer, "transmit");
-        subsurface.transmit(commandBuffer, frame, shadowMaps.image(), settings);
-    }
+    subsurface.prepareImages(commandBuffer, frame, lighting.irradiance(), shadowMaps.image());
     if (settings.scatter) {
         const Label label(gpu, commandBuffer, "scatter");
         subsurface.scatter(commandBuffer, frame, lighting.irradiance(), settings);
+    }
+    if (settings.transmit) { // waits for nothing of scatter's
+        const Label label(gpu, commandBuffer, "transmit");
+        subsurface.transmit(commandBuffer, frame, shadowMaps.image(), settings);
     }
 }
 

@@ -187,6 +187,21 @@ void Subsurface::beginFrame(std::uint32_t index) {
     check(nacreBeginFrame(context_.get(), index));
 }
 
+void Subsurface::prepareImages(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
+                               Image& shadowMaps) {
+    GBuffer& gbuffer = frame.gbuffer;
+    prepare(commandBuffer, {{irradiance, usage::computeRead},
+                            {gbuffer.image(GBuffer::Depth), usage::computeRead},
+                            {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
+                            {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
+                            {gbuffer.image(GBuffer::Albedo), usage::computeRead},
+                            {gbuffer.image(GBuffer::Thickness), usage::computeRead},
+                            {shadowMaps, usage::computeRead},
+                            {scattered_, usage::computeWrite},
+                            {transmitted_, usage::computeWrite},
+                            {thickness_, usage::computeWrite}});
+}
+
 void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
                           const EffectSettings& settings) {
     GBuffer& gbuffer = frame.gbuffer;
@@ -194,13 +209,6 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     Image& materialId = gbuffer.image(GBuffer::MaterialId);
     Image& normal = gbuffer.image(GBuffer::VertexNormal);
     Image& authored = gbuffer.image(GBuffer::Thickness);
-    prepare(commandBuffer, {{depth, usage::computeRead},
-                            {materialId, usage::computeRead},
-                            {normal, usage::computeRead},
-                            {authored, usage::computeRead},
-                            {shadowMaps, usage::computeRead},
-                            {transmitted_, usage::computeWrite},
-                            {thickness_, usage::computeWrite}});
     const NacreImage maps = convert(shadowMaps);
     const NacreCost cost = transmitCost();
     NacreTransmitInfo info{};
@@ -242,12 +250,6 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     Image& materialId = gbuffer.image(GBuffer::MaterialId);
     Image& normal = gbuffer.image(GBuffer::VertexNormal);
     Image& albedo = gbuffer.image(GBuffer::Albedo);
-    prepare(commandBuffer, {{irradiance, usage::computeRead},
-                            {depth, usage::computeRead},
-                            {materialId, usage::computeRead},
-                            {normal, usage::computeRead},
-                            {albedo, usage::computeRead},
-                            {scattered_, usage::computeWrite}});
     const NacreCost cost = scatterCost(settings.technique);
     NacreScatterInfo info{};
     info.view = makeView(frame.view);

@@ -44,10 +44,13 @@ public:
 
     /// Before anything of frame `index` is recorded; its previous use must have finished.
     void beginFrame(std::uint32_t index);
-    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
-                  const EffectSettings& settings);
+    /// The barriers before `scatter` and `transmit`, all at once, so that there is none between the two.
+    void prepareImages(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
+                       Image& shadowMaps);
     void scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
                  const EffectSettings& settings);
+    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
+                  const EffectSettings& settings);
     /// Compiles what the settings need beyond the context's own pipelines; the device must be idle. Before `scatter`
     /// with new settings or materials.
     void prepareSettings(Gpu& gpu, const EffectSettings& settings);

@@ -2,7 +2,9 @@
  *
  * THE CONTRACT
  *  1. Recording (nacreCmd*) never submits, waits, allocates, compiles or prints. Create, resize and set-materials may.
- *     A frame is: nacreBeginFrame, then one nacreCmdScatter and nacreCmdTransmit per view, in any order.
+ *     A frame is: nacreBeginFrame, then one nacreCmdScatter and nacreCmdTransmit per view, in any order. Best is scatter
+ *     first, then transmit without a barrier between them: transmit with shadow maps waits for nothing recorded before
+ *     it, so that the device runs both side by side.
  *  2. The caller's images keep their layout: NacreImage says which one they are in, and they leave in it. The library
  *     puts barriers only around its own intermediates.
  *       on entry  every input image is visible to VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT / VK_ACCESS_SHADER_READ_BIT;
