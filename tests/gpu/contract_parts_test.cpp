@@ -120,16 +120,7 @@ TEST_F(PartsTest, TransmitIsThatOfAContext) {
         gpu.upload(pair[0], std::vector<Float4>(extent.width * extent.height));
         gpu.upload(pair[1], std::vector<float>(extent.width * extent.height));
     }
-    NacreTransmitInfo info{};
-    info.view = images.info.view;
-    info.depth = images.info.depth;
-    info.materialId = images.info.materialId;
-    info.normal = images.info.normal;
-    info.strength = images.info.strength;
-    info.lightCount = 3;
-    info.lights = lights;
-    info.shadowMapCount = 1;
-    info.shadowMaps = maps;
+    NacreTransmitInfo info = images.transmitInfo(lights, maps);
     info.filterRadius = 1;
     ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
     gpu.run([&](VkCommandBuffer commandBuffer) {

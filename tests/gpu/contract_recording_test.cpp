@@ -61,16 +61,11 @@ struct Frame {
     explicit Frame(Gpu& gpu)
         : images(gpu, input()),
           transmitted(gpu.createImage({.extent = {64, 64}, .usage = VK_IMAGE_USAGE_STORAGE_BIT})) {
-        transmit.view = images.info.view;
-        transmit.depth = images.info.depth;
-        transmit.materialId = images.info.materialId;
-        transmit.normal = images.info.normal;
-        transmit.transmitted = transmitted.nacre();
         light.direction[2] = 1;
         light.irradiance[0] = light.irradiance[1] = light.irradiance[2] = 1;
         light.shadowMap = NACRE_NO_SHADOW_MAP;
-        transmit.lightCount = 1;
-        transmit.lights = &light;
+        transmit = images.transmitInfo({&light, 1});
+        transmit.transmitted = transmitted.nacre();
     }
     static ScatterInput input() {
         ScatterInput input = ScatterInput::plane(64, 64, Projection::perspective(64, 64, 1000), 500);

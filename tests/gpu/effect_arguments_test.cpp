@@ -27,16 +27,6 @@ protected:
         return result;
     }
 
-    NacreTransmitInfo transmitInfo(const ScatterImages& images) const {
-        NacreTransmitInfo result{};
-        result.view = images.info.view;
-        result.depth = images.info.depth;
-        result.materialId = images.info.materialId;
-        result.normal = images.info.normal;
-        result.transmitted = images.info.scattered;
-        return result;
-    }
-
     /// Expects this result, one message that contains `text`, and no command.
     void expectRefusal(Effect& effect, NacreResult expected, const std::string& text,
                        const std::function<NacreResult(VkCommandBuffer)>& call) {
@@ -221,7 +211,7 @@ TEST_F(ArgumentsTest, Transmit) {
     Effect effect(gpu, info());
     ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
     for (const Case& one : cases) {
-        NacreTransmitInfo wrong = transmitInfo(images);
+        NacreTransmitInfo wrong = images.transmitInfo();
         NacreLight light{};
         light.direction[2] = 1;
         light.shadowMap = NACRE_NO_SHADOW_MAP;

@@ -10,12 +10,11 @@ using namespace nacre::tests;
 
 namespace {
 
-constexpr std::uint32_t imageSize = 48;
-constexpr std::uint32_t mapSize = 512;
+constexpr int imageSize = 48;
 constexpr double focalLength = 600;   // px
 constexpr double receiverDepth = 500; // mm before the camera
 constexpr double lightDepth = 1000;
-constexpr double extent = 120; // mm, half side of the shadow map
+constexpr double lightDistance = lightDepth - receiverDepth;
 constexpr double shadowRange = 2000;
 
 /// Thickness in mm under a texel of the shadow map; below 0, light enters before the plane.
@@ -29,14 +28,39 @@ double noise(int x, int y) {
     return (value >> 8) * 0x1p-24;
 }
 
-/// The taps of an axis at a coordinate in texels: a tent of radius 2.
+/// The light, its map and its filter. The camera sees the plane from 500 mm, the light is 500 mm behind the plane.
+struct Lighting {
+    NacreLightKind kind = NACRE_LIGHT_DIRECTIONAL;
+    double aside = 0; // mm, how far right of the picture's middle the light is, and above it
+    int mapSize = 512;
+    double extent = 120;    // mm, half side of the map's part of the plane
+    float filterRadius = 0; // texels
+    float normalOffset = 0; // texels
+};
+
+/// A corner of the map is in the picture, 12 px from its middle; a point light's map is a face of its cube. The
+/// receiver stays where it is, so that a slab is as thick for light from any direction.
+Lighting bordered(NacreLightKind kind, double side, float filterRadius) {
+    return {.kind = kind,
+            .aside = side * (lightDistance - 10),
+            .mapSize = 128,
+            .extent = lightDistance,
+            .filterRadius = filterRadius,
+            .normalOffset = 1e-6f};
+}
+
+/// The taps of an axis at a coordinate in texels: a tent.
 struct Taps {
-    explicit Taps(double coordinate) : first(static_cast<int>(std::floor(coordinate - 0.5)) - 1) {
+    Taps(double coordinate, double radius, int mapSize) {
+        const double spacing = std::max(0.5 * radius, 0.5);
+        const double middle = coordinate / spacing - 0.5;
         for (int i = 0; i < 4; ++i) {
-            weights[i] = 0.5 - 0.25 * std::abs(first + i + 0.5 - coordinate);
+            const double tap = std::floor(middle) - 1 + i;
+            texels[i] = std::clamp(static_cast<int>(std::floor((tap + 0.5) * spacing)), 0, mapSize - 1);
+            weights[i] = 0.5 - 0.25 * std::abs(tap - middle);
         }
     }
-    int first;
+    int texels[4];
     double weights[4];
 };
 
@@ -47,61 +71,43 @@ protected:
         double largest = 0;
     };
 
-    /// Shares of the light's irradiance that the picture is off the sum over the taps.
-    Error error(const Material& material, const Body& body) {
+    /// Shares of the light's irradiance that the picture is off the sum over the taps, where the map is.
+    Error error(const Material& material, const Body& body, const Lighting& lighting = {}) {
         const auto profile = makeProfile(material);
-        const std::vector<Float4> image = transmit(material, body);
+        const std::vector<Float4> image = transmit(material, body, lighting);
         Error result;
-        for (std::uint32_t y = 0; y < imageSize; ++y) {
-            for (std::uint32_t x = 0; x < imageSize; ++x) {
-                for (int channel = 0; channel < 3; ++channel) {
-                    const double expected = tapSum(*profile, channel, body, x, y);
-                    const double difference = std::abs(image[y * imageSize + x][channel] - expected);
-                    // Not less than, so that NaN counts.
-                    result.largest = difference <= result.largest ? result.largest : difference;
-                    result.rms += difference * difference / (3 * imageSize * imageSize);
-                }
+        int count = 0;
+        for (int i = 0; i < imageSize * imageSize; ++i) {
+            const Point point(lighting, i % imageSize, i / imageSize);
+            if (!point.inside) {
+                continue;
+            }
+            for (int channel = 0; channel < 3; ++channel) {
+                const double expected = tapSum(*profile, channel, body, lighting, point);
+                const double difference =
+                    std::abs(image[static_cast<std::size_t>(i)][channel] / point.irradiance - expected);
+                // Not less than, so that NaN counts.
+                result.largest = difference <= result.largest ? result.largest : difference;
+                result.rms += difference * difference;
+                ++count;
             }
         }
-        result.rms = std::sqrt(result.rms);
+        EXPECT_GT(count, 0);
+        result.rms = std::sqrt(result.rms / count);
         return result;
     }
 
 private:
-    static double tapSum(const Profile& profile, int channel, const Body& body, std::uint32_t x, std::uint32_t y) {
-        constexpr double texelsPerPixel = receiverDepth / focalLength * mapSize / (2 * extent);
-        const Taps columns(0.5 * mapSize + (x + 0.5 - imageSize / 2.0) * texelsPerPixel);
-        const Taps rows(0.5 * mapSize + (imageSize / 2.0 - y - 0.5) * texelsPerPixel);
-        double sum = 0;
-        for (int i = 0; i < 16; ++i) {
-            const double thickness = std::max(body(columns.first + i % 4, rows.first + i / 4), 0.0);
-            sum += columns.weights[i % 4] * rows.weights[i / 4] * profile.slabTransmittance(channel, thickness);
-        }
-        return sum;
-    }
-
-    /// The plane as the camera sees it; the light is behind it and shines at the camera with an irradiance of 1.
-    std::vector<Float4> transmit(const Material& material, const Body& body) {
-        std::vector<float> texels;
-        for (std::uint32_t i = 0; i < mapSize * mapSize; ++i) {
-            const double thickness = body(static_cast<int>(i % mapSize), static_cast<int>(i / mapSize));
-            texels.push_back(static_cast<float>((lightDepth - receiverDepth - thickness) / shadowRange));
-        }
-        const GpuImage map = gpu.createShadowMap(mapSize, texels);
+    /// The plane as the camera sees it; the light is behind it and shines at the camera with an irradiance of 1, at a
+    /// metre if not directional.
+    std::vector<Float4> transmit(const Material& material, const Body& body, const Lighting& lighting) {
+        const GpuImage map = shadowMap(body, lighting);
         const NacreImage maps[] = {map.nacre()};
-        NacreLight light{};
-        light.kind = NACRE_LIGHT_DIRECTIONAL;
-        light.position[2] = -lightDepth;
-        light.direction[2] = 1;
-        std::fill(std::begin(light.irradiance), std::end(light.irradiance), 1.0f);
-        light.shadowRange = shadowRange;
-        light.shadowClipFromWorld[0] = light.shadowClipFromWorld[5] = static_cast<float>(1 / extent);
-        light.shadowClipFromWorld[15] = 1;
-
+        const NacreLight source = light(lighting);
         ScatterInput input = ScatterInput::plane(
             imageSize, imageSize, Projection::perspective(imageSize, imageSize, focalLength), receiverDepth);
         input.normal.assign(input.depth.size(), {0, 0, 1, 0});
-        ScatterImages images(gpu, input);
+        const ScatterImages images(gpu, input);
         NacreContextInfo contextInfo = gpu.contextInfo(input.extent);
         contextInfo.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
         Effect effect(gpu, contextInfo);
@@ -110,20 +116,85 @@ private:
         translucent.translucency = 1;
         EXPECT_EQ(nacreSetMaterials(effect.context, 1, 1, &translucent), NACRE_SUCCESS);
         EXPECT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
-        NacreTransmitInfo info{};
-        info.view = input.view;
-        info.depth = images.info.depth;
-        info.materialId = images.info.materialId;
-        info.normal = images.info.normal;
-        info.lights = &light;
-        info.lightCount = 1;
-        info.shadowMaps = maps;
-        info.shadowMapCount = 1;
-        info.transmitted = images.scattered.nacre();
+        NacreTransmitInfo info = images.transmitInfo({&source, 1}, maps);
+        info.filterRadius = lighting.filterRadius;
+        info.normalOffset = lighting.normalOffset;
         gpu.run([&](VkCommandBuffer commandBuffer) {
             EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &info), NACRE_SUCCESS);
         });
         return gpu.download<Float4>(images.scattered);
+    }
+
+    /// A pixel's point of the plane, as the light sees it.
+    struct Point {
+        Point(const Lighting& lighting, int x, int y) {
+            constexpr double pixel = receiverDepth / focalLength; // mm
+            const double right = (x + 0.5 - imageSize / 2.0) * pixel - lighting.aside;
+            const double up = (imageSize / 2.0 - y - 0.5) * pixel - lighting.aside;
+            const double down = lighting.kind == NACRE_LIGHT_POINT ? -up : up; // a cube's faces have y downwards
+            column = 0.5 * lighting.mapSize * (1 + right / lighting.extent);
+            row = 0.5 * lighting.mapSize * (1 + down / lighting.extent);
+            inside = std::max(std::abs(right), std::abs(up)) < lighting.extent;
+            if (lighting.kind != NACRE_LIGHT_DIRECTIONAL) {
+                const double squared = right * right + up * up + lightDistance * lightDistance;
+                irradiance = 1e6 * lightDistance / (squared * std::sqrt(squared));
+            }
+        }
+        double column, row; // texels
+        bool inside;
+        double irradiance = 1;
+    };
+
+    static double tapSum(const Profile& profile, int channel, const Body& body, const Lighting& lighting,
+                         const Point& point) {
+        const double radius = lighting.filterRadius == 0 ? 2 : lighting.filterRadius;
+        const Taps columns(point.column, radius, lighting.mapSize);
+        const Taps rows(point.row, radius, lighting.mapSize);
+        double sum = 0;
+        for (int i = 0; i < 16; ++i) {
+            const double thickness = std::max(body(columns.texels[i % 4], rows.texels[i / 4]), 0.0);
+            sum += columns.weights[i % 4] * rows.weights[i / 4] * profile.slabTransmittance(channel, thickness);
+        }
+        return sum;
+    }
+
+    static NacreLight light(const Lighting& lighting) {
+        NacreLight light{};
+        light.kind = lighting.kind;
+        light.position[0] = light.position[1] = static_cast<float>(lighting.aside);
+        light.position[2] = -lightDepth;
+        light.direction[2] = 1;
+        std::fill(std::begin(light.irradiance), std::end(light.irradiance), 1.0f);
+        light.innerConeAngle = 1.4f;
+        light.outerConeAngle = 1.5f;
+        light.shadowRange = shadowRange;
+        const bool isSpot = lighting.kind == NACRE_LIGHT_SPOT;
+        const double scale = (isSpot ? lightDistance : 1) / lighting.extent;
+        light.shadowClipFromWorld[0] = light.shadowClipFromWorld[5] = static_cast<float>(scale);
+        light.shadowClipFromWorld[12] = light.shadowClipFromWorld[13] = static_cast<float>(-scale * lighting.aside);
+        light.shadowClipFromWorld[11] = isSpot ? 1 : 0;
+        light.shadowClipFromWorld[15] = isSpot ? lightDepth : 1;
+        return light;
+    }
+
+    GpuImage shadowMap(const Body& body, const Lighting& lighting) {
+        const int size = lighting.mapSize;
+        const auto distance = [&](int x, int y) { // from the light to the plane
+            const double right = lighting.extent * ((2 * x + 1.0) / size - 1);
+            const double up = lighting.extent * ((2 * y + 1.0) / size - 1);
+            return lighting.kind == NACRE_LIGHT_DIRECTIONAL ? lightDistance : std::hypot(right, up, lightDistance);
+        };
+        std::vector<float> texels;
+        for (int i = 0; i < size * size; ++i) {
+            const int x = i % size;
+            const int y = i / size;
+            texels.push_back(static_cast<float>((distance(x, y) - body(x, y)) / shadowRange));
+        }
+        if (lighting.kind == NACRE_LIGHT_POINT) {
+            texels.insert(texels.begin(), 4 * texels.size(), 0.0f); // the plane is in face +Z
+            texels.resize(texels.size() / 5 * 6);
+        }
+        return gpu.createShadowMap(static_cast<std::uint32_t>(size), texels);
     }
 };
 
@@ -134,6 +205,27 @@ TEST_F(TransmitFilterTest, TwoThicknessesAreExactAtAnyShares) {
         EXPECT_LT(silhouette.largest, 1e-3);
         const Error mixture = error(material, [](int x, int y) { return noise(x, y) < 0.3 ? 0.2 : 3.0; });
         EXPECT_LT(mixture.largest, 1e-3);
+    }
+}
+
+TEST_F(TransmitFilterTest, TapsStayInTheMapAtAnyRadius) {
+    for (const NacreLightKind kind : {NACRE_LIGHT_DIRECTIONAL, NACRE_LIGHT_SPOT, NACRE_LIGHT_POINT}) {
+        for (const double side : {-1.0, 1.0}) {
+            for (const float filterRadius : {1.0f, 2.0f, 3.0f, 3.5f}) {
+                SCOPED_TRACE(testing::Message()
+                             << "light kind " << kind << ", side " << side << ", radius " << filterRadius);
+                const Body body = [](int x, int y) { return noise(x, y) < 0.4 ? 0.2 : 3.0; };
+                EXPECT_LT(error(marble(), body, bordered(kind, side, filterRadius)).largest, 1e-3);
+            }
+        }
+    }
+}
+
+TEST_F(TransmitFilterTest, MapsOfFewTexels) {
+    for (const int mapSize : {1, 2, 3}) {
+        SCOPED_TRACE(mapSize);
+        const Body body = [](int x, int y) { return (x + y) % 2 == 0 ? 0.5 : 2.0; };
+        EXPECT_LT(error(marble(), body, {.mapSize = mapSize, .extent = 10}).largest, 1e-3);
     }
 }
 

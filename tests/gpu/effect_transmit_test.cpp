@@ -133,16 +133,7 @@ protected:
         Effect effect(gpu, context);
         EXPECT_EQ(nacreSetMaterials(effect.context, 1, 1, &material), NACRE_SUCCESS);
         EXPECT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
-        NacreTransmitInfo info{};
-        info.view = input.view;
-        info.depth = images.info.depth;
-        info.materialId = images.info.materialId;
-        info.normal = images.info.normal;
-        info.lights = lights.data();
-        info.lightCount = static_cast<std::uint32_t>(lights.size());
-        info.shadowMaps = maps.data();
-        info.shadowMapCount = static_cast<std::uint32_t>(maps.size());
-        info.transmitted = images.scattered.nacre();
+        NacreTransmitInfo info = images.transmitInfo(lights, maps);
         info.thicknessOut = thickness.nacre();
         if (change) {
             change(info);

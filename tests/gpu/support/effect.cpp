@@ -165,6 +165,22 @@ ScatterImages::ScatterImages(Gpu& gpu, const ScatterInput& input, const ScatterF
     info.scattered = scattered.nacre();
 }
 
+NacreTransmitInfo ScatterImages::transmitInfo(std::span<const NacreLight> lights,
+                                              std::span<const NacreImage> shadowMaps) const {
+    NacreTransmitInfo result{};
+    result.view = info.view;
+    result.depth = info.depth;
+    result.materialId = info.materialId;
+    result.normal = info.normal;
+    result.strength = info.strength;
+    result.lights = lights.data();
+    result.lightCount = static_cast<std::uint32_t>(lights.size());
+    result.shadowMaps = shadowMaps.data();
+    result.shadowMapCount = static_cast<std::uint32_t>(shadowMaps.size());
+    result.transmitted = info.scattered;
+    return result;
+}
+
 NacreMaterial toNacre(const Material& material, std::vector<NacreLayer>& storage) {
     NacreMaterial result = nacreDefaultMaterial();
     storage.clear();

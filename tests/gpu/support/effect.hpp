@@ -60,6 +60,9 @@ struct ScatterFormats {
 /// The input's images on the device, and the struct that names them.
 struct ScatterImages {
     ScatterImages(Gpu& gpu, const ScatterInput& input, const ScatterFormats& formats = {});
+    /// Arguments of nacreCmdTransmit with these images; the output takes the place of the scattered light.
+    NacreTransmitInfo transmitInfo(std::span<const NacreLight> lights = {},
+                                   std::span<const NacreImage> shadowMaps = {}) const;
     std::vector<GpuImage> images;
     GpuImage scattered;
     NacreScatterInfo info{};
