@@ -320,7 +320,7 @@ typedef struct NacreTransmitInfo {
     uint32_t lightCount;
     const NacreLight* lights;
     uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] */
-    const NacreImage* shadowMaps; /**< 2D array views of linear depth */
+    const NacreImage* shadowMaps; /**< 2D array views of linear depth; extent: the map, from the view's first texel */
     float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
     VkBool32 thesisTransmittance; /**< materials of layers: T = sum w exp(-d²/v), the thesis's own form, in place of
