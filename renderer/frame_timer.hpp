@@ -6,6 +6,7 @@
 #include "renderer/renderer.hpp"
 
 #include <span>
+#include <utility>
 
 namespace nacre::renderer {
 
@@ -18,6 +19,14 @@ public:
     void begin(const vk::raii::CommandBuffer& commandBuffer, Timing timing);
     /// Ends the pass that began at the last timestamp.
     void endPass(const vk::raii::CommandBuffer& commandBuffer, const std::string& name);
+    /// A pass without timestamps inside, whatever `recorder` records.
+    template <typename Recorder>
+    void span(const vk::raii::CommandBuffer& commandBuffer, const std::string& name, const Recorder& recorder) {
+        const Timing outer = std::exchange(timing_, Timing::Whole);
+        recorder();
+        timing_ = outer;
+        endPass(commandBuffer, name);
+    }
     /// Ends the frame.
     void end(const vk::raii::CommandBuffer& commandBuffer);
     /// Sets queries aside for passes that somebody else times: one before the first and one after each. The first pass

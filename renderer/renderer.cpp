@@ -14,6 +14,9 @@ namespace nacre::renderer {
 namespace {
 
 constexpr std::uint32_t framesInFlight = 1;
+constexpr const char* copyPass = "copy";
+constexpr const char* repeatedEffect = "effects"; // what renderEffect repeats; not in the report
+constexpr const char* repeatedCopy = "copies";
 /// Largest supersampling per axis.
 constexpr std::uint32_t maxSamples = 4;
 /// How far things occlude ambient light, as a share of the scene's radius.
@@ -101,7 +104,8 @@ struct Renderer::Implementation {
     template <typename Recorder>
     void recordPass(const vk::raii::CommandBuffer& commandBuffer, const char* name, const Recorder& recorder);
     void render(const scene::Camera& camera, Timing timing);
-    void renderEffect();
+    void renderEffect(std::uint32_t repetitions);
+    void sumRepetitions(std::uint32_t repetitions);
     template <typename Recorder> void submit(const Recorder& recorder);
     void fillReport();
     /// Makes a part of the renderer and notes what memory it takes.
@@ -155,11 +159,12 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
                         return Lighting(gpu, {gbuffer, occlusion, shadowMaps, environment, nearest},
                                         lightConstants(lights, metersPerUnit), effectUsage(NACRE_IMAGE_IRRADIANCE));
                     })),
-      subsurface(
-          part("effect: outputs",
-               [&] {
-                   return Subsurface(gpu, {extent, framesInFlight, metersPerUnit}, input.materials, lights.lights);
-               })),
+      subsurface(part("effect: outputs",
+                      [&] {
+                          return Subsurface(gpu,
+                                            {extent, framesInFlight, 1 + settings.effectRepetitions, metersPerUnit},
+                                            input.materials, lights.lights);
+                      })),
       compose(part("compose and tone map",
                    [&] {
                        return Compose(gpu, {gbuffer, lighting, subsurface, environment, nearest},
@@ -188,6 +193,7 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
                                       const View& view, Timing timing) {
     const auto pass = [&](const char* name, const auto& recorder) { recordPass(commandBuffer, name, recorder); };
     const Compose::Settings look{settings.scatter, settings.transmit, exposure, settings.samples, settings.dither};
+    subsurface.beginFrame(frameIndex);
     timer.begin(commandBuffer, timing);
     pass("shadow maps", [&] { shadowMaps.record(commandBuffer, scene); });
     pass("G-buffer", [&] { gbuffer.record(commandBuffer, scene, view); });
@@ -205,7 +211,6 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
 void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex,
                                             const View& view) {
     const Subsurface::Frame frame{frameIndex, view, gbuffer, timer};
-    subsurface.beginFrame(frameIndex);
     subsurface.prepareImages(commandBuffer, frame, lighting.irradiance(), shadowMaps.image());
     if (settings.scatter) {
         const Label label(gpu, commandBuffer, "scatter");
@@ -219,7 +224,7 @@ void Renderer::Implementation::recordEffect(const vk::raii::CommandBuffer& comma
 
 void Renderer::Implementation::recordCopy(const vk::raii::CommandBuffer& commandBuffer) {
     if (copyFloor) {
-        recordPass(commandBuffer, "copy", [&] { copyFloor->record(commandBuffer); });
+        recordPass(commandBuffer, copyPass, [&] { copyFloor->record(commandBuffer); });
     }
 }
 
@@ -241,14 +246,45 @@ void Renderer::Implementation::render(const scene::Camera& camera, Timing timing
     rendered = view;
 }
 
-void Renderer::Implementation::renderEffect() {
+void Renderer::Implementation::renderEffect(std::uint32_t repetitions) {
     if (!rendered) {
         throw RendererError("the effect cannot be done again before a frame has been rendered");
     }
+    if (repetitions > settings.effectRepetitions) {
+        throw RendererError("the effect cannot be repeated " + std::to_string(repetitions) +
+                            " times, RenderSettings::effectRepetitions is " +
+                            std::to_string(settings.effectRepetitions));
+    }
+    const auto repeat = [&](const vk::raii::CommandBuffer& commandBuffer, const char* name, const auto& recorder) {
+        timer.span(commandBuffer, name, [&] {
+            for (std::uint32_t i = 0; i < repetitions; ++i) {
+                recorder();
+            }
+        });
+    };
     submit([&](const vk::raii::CommandBuffer& commandBuffer) {
+        subsurface.beginFrame(0);
         timer.begin(commandBuffer, Timing::Passes);
         recordEffect(commandBuffer, 0, *rendered);
         recordCopy(commandBuffer);
+        if (repetitions > 0) {
+            repeat(commandBuffer, repeatedEffect, [&] { recordEffect(commandBuffer, 0, *rendered); });
+            repeat(commandBuffer, repeatedCopy, [&] { recordCopy(commandBuffer); });
+        }
+    });
+    sumRepetitions(repetitions);
+}
+
+void Renderer::Implementation::sumRepetitions(std::uint32_t repetitions) {
+    report.effectMicroseconds = report.copyMicroseconds = 0;
+    std::erase_if(report.passes, [&](const PassTime& pass) {
+        const bool isRepeated = pass.name == repeatedEffect || pass.name == repeatedCopy;
+        const bool isCopy = pass.name == repeatedCopy || pass.name == copyPass;
+        if (isRepeated || repetitions == 0) {
+            (isCopy ? report.copyMicroseconds : report.effectMicroseconds) +=
+                pass.microseconds / std::max(repetitions, 1u);
+        }
+        return isRepeated;
     });
 }
 
@@ -293,8 +329,8 @@ Pixels Renderer::read(Output output) const {
     return pixels;
 }
 
-void Renderer::renderEffect() {
-    guard([&] { implementation_->renderEffect(); });
+void Renderer::renderEffect(std::uint32_t repetitions) {
+    guard([&] { implementation_->renderEffect(repetitions); });
 }
 
 const FrameReport& Renderer::report() const {

@@ -51,6 +51,8 @@ struct RenderSettings : EffectSettings {
     /// Adds the pass "copy" after the effect: it reads irradiance, depth and material ids, writes as much as a scatter
     /// pass does, and is what no technique can be faster than.
     bool copyFloor = false;
+    /// [count] most repetitions that renderEffect may be asked for
+    std::uint32_t effectRepetitions = 0;
 };
 
 /// What the timestamps of a frame are written around.
@@ -76,8 +78,11 @@ struct FrameReport {
     std::vector<PassTime> passes;
     double totalMicroseconds = 0;     ///< first to last timestamp
     double recordingMicroseconds = 0; ///< processor time to record it
-    std::uint64_t copyBytes = 0;      ///< what the pass "copy" reads and writes; 0 without RenderSettings::copyFloor
-    std::vector<MemoryUse> memory;    ///< of the renderer's parts, and of the effect's intermediates and materials
+    /// Of renderEffect: of one repetition, or without repetitions the sum of the effect's passes.
+    double effectMicroseconds = 0;
+    double copyMicroseconds = 0;   ///< of renderEffect: of the pass "copy", repeated alike
+    std::uint64_t copyBytes = 0;   ///< what the pass "copy" reads and writes; 0 without RenderSettings::copyFloor
+    std::vector<MemoryUse> memory; ///< of the renderer's parts, and of the effect's intermediates and materials
     std::uint32_t scatterDispatches = 0;
     std::uint32_t transmitDispatches = 0;
     std::uint64_t effectBytes = 0; ///< intermediates of the effect
@@ -104,9 +109,10 @@ public:
 
     /// Draws one frame from `camera` and waits for it.
     void render(const scene::Camera& camera, Timing timing = Timing::Passes);
-    /// Does the last frame's effect (and copy) again on its images, and waits for it; the report then has only those
-    /// passes.
-    void renderEffect();
+    /// Does the last frame's effect (and copy) again on its images, and waits for it: once with a timestamp after every
+    /// pass, then `repetitions` [0, RenderSettings::effectRepetitions] times one after the other with none in between,
+    /// which could keep passes from overlapping. The report then has only those passes.
+    void renderEffect(std::uint32_t repetitions = 0);
     /// The last frame's pixels.
     Pixels read(Output output) const;
     const FrameReport& report() const;

@@ -136,7 +136,7 @@ void Subsurface::createContext(Gpu& gpu) {
     contextInfo.maxExtent = info_.extent;
     contextInfo.techniques = techniques_;
     contextInfo.framesInFlight = info_.framesInFlight;
-    contextInfo.recordsPerFrame = 1;
+    contextInfo.recordsPerFrame = info_.recordsPerFrame;
     contextInfo.maxMaterials = std::max(1u, static_cast<std::uint32_t>(materials_.size()));
     contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights_.size()));
     contextInfo.messageCallback = keepMessage;

@@ -20,6 +20,7 @@ public:
     struct Info {
         vk::Extent2D extent;
         std::uint32_t framesInFlight = 1;
+        std::uint32_t recordsPerFrame = 1; ///< of the effect
         float metersPerUnit = 1;
     };
 

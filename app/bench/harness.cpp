@@ -39,12 +39,20 @@ bool sameSize(const Size& a, const Size& b) {
     return a.width == b.width && a.height == b.height;
 }
 
+// As many as make up a time of repetitionsDuration, unless one alone is longer.
+std::uint32_t repetitionsOf(double microseconds) {
+    constexpr double repetitionsDuration = 5000; // µs
+    const double count = std::min<double>(repetitionsDuration / std::max(microseconds, 1.0), mostRepetitions);
+    return count < 2 ? 0 : static_cast<std::uint32_t>(count);
+}
+
 // A configuration and what its frames took.
 struct Candidate {
     const Configuration* configuration;
     Samples samples;
     /// This candidate's configuration once more, for the noise floor.
     bool isTwin = false;
+    std::uint32_t repetitions = 0; ///< Stage::renderEffect
 };
 
 class SeriesRun {
@@ -93,11 +101,11 @@ private:
 
     void warmUp() {
         std::size_t done = 0;
-        for (const Candidate& candidate : candidates_) {
+        for (Candidate& candidate : candidates_) {
             Stage& stage = stageOf(candidate);
             stage.select(*candidate.configuration);
             for (std::uint32_t frame = 0; frame < settings_.warmUpFrames; ++frame) {
-                stage.renderEffect();
+                candidate.repetitions = repetitionsOf(stage.renderEffect().effectMicroseconds);
             }
             progress("warming up", ++done, candidates_.size());
         }
@@ -132,7 +140,7 @@ private:
             stage.renderEffect();
         }
         for (std::uint32_t effect = 0; effect < settings_.effectsPerTurn; ++effect) {
-            candidate.samples.addEffect(stage.renderEffect());
+            candidate.samples.addEffect(stage.renderEffect(candidate.repetitions));
         }
     }
 
@@ -185,6 +193,9 @@ private:
         measurement.unit = configuration.unit.empty() ? series_.unit : configuration.unit;
         measurement.value = configuration.value;
         candidate.samples.fill(measurement);
+        if (candidate.repetitions > 0) {
+            measurement.repetitions = candidate.repetitions;
+        }
         measurement.footprint = footprint(*configuration.view, configuration.size, configuration.materials);
         measurement.layers = mostLayers(configuration.materials);
         measurement.noise = noiseOf(configuration, floors);

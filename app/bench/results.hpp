@@ -82,9 +82,12 @@ struct Measurement {
     std::string variable; ///< what the series varies, e.g. "radius"
     std::string unit;     ///< of `value`, e.g. "texels"; empty = a count
     double value = 0;
-    Summary frame;                  ///< µs of a frame that has no timestamps but its first and last
-    Summary effect;                 ///< µs, the effect's passes together, repeated on the images of a frame
-    Summary copy;                   ///< µs of a pass that only copies the effect's inputs to its output
+    Summary frame;  ///< µs of a frame that has no timestamps but its first and last
+    Summary effect; ///< µs, the effect, repeated on the images of a frame
+    Summary copy;   ///< µs of a pass that only copies the effect's inputs to its output
+    /// One after the other, without timestamps inside, whose mean a time of `effect` and `copy` is; none = single ones,
+    /// the sum of the passes.
+    std::optional<std::uint32_t> repetitions;
     Summary recording;              ///< µs of processor time to record the frame
     std::vector<PassResult> passes; ///< in order of execution
     double passShare = 0;           ///< Σ median of the passes, timed within frames / median of the frame

@@ -7,22 +7,15 @@ namespace {
 
 constexpr const char* copyPass = "copy";
 
-bool isEffect(const std::string& pass) {
-    return pass.starts_with("scatter: ") || pass.starts_with("transmit: ");
-}
-
 } // namespace
 
 void Samples::Passes::add(const renderer::FrameReport& report) {
-    double sum = 0;
     for (const renderer::PassTime& time : report.passes) {
         const auto known =
             std::find_if(passes.begin(), passes.end(), [&](const Pass& other) { return other.name == time.name; });
         Pass& target = known == passes.end() ? passes.emplace_back(Pass{time.name, {}}) : *known;
         target.times.push_back(time.microseconds);
-        sum += isEffect(time.name) ? time.microseconds : 0;
     }
-    effect.push_back(sum);
 }
 
 const Samples::Pass* Samples::Passes::find(const std::string& name) const {
@@ -42,26 +35,23 @@ void Samples::addWhole(const renderer::FrameReport& report) {
 
 void Samples::addEffect(const renderer::FrameReport& report) {
     alone_.add(report);
-}
-
-Summary Samples::effect() const {
-    return summarize(effectSource().effect);
+    effect_.push_back(report.effectMicroseconds);
+    copy_.push_back(report.copyMicroseconds);
 }
 
 void Samples::fill(Measurement& measurement) const {
     measurement.frame = summarize(frame_);
     measurement.effect = effect();
+    measurement.copy = summarize(copy_);
     measurement.recording = summarize(recording_);
     double sum = 0;
     for (const Pass& pass : inFrame_.passes) {
-        const Pass* alone = alone_.find(pass.name);
-        const Summary time = summarize(alone == nullptr ? pass.times : alone->times);
         if (pass.name == copyPass) {
-            measurement.copy = time;
-        } else {
-            measurement.passes.push_back({pass.name, time});
-            sum += summarize(pass.times).median;
+            continue;
         }
+        const Pass* alone = alone_.find(pass.name);
+        measurement.passes.push_back({pass.name, summarize(alone == nullptr ? pass.times : alone->times)});
+        sum += summarize(pass.times).median;
     }
     measurement.passShare = sum / measurement.frame.median;
     for (const renderer::MemoryUse& use : last_.memory) {

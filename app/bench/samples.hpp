@@ -18,8 +18,8 @@ public:
 
     /// Fills the times, pass shares, sizes and memory of a measurement. There must have been a frame of either kind.
     void fill(Measurement& measurement) const;
-    /// Of the effect alone, or where that was not measured, within frames.
-    Summary effect() const;
+    /// Of the effect alone, without timestamps inside.
+    Summary effect() const { return summarize(effect_); }
 
 private:
     struct Pass {
@@ -28,17 +28,16 @@ private:
     };
     struct Passes {
         std::vector<Pass> passes; ///< in order of execution
-        std::vector<double> effect;
 
         void add(const renderer::FrameReport& report);
         const Pass* find(const std::string& name) const;
     };
 
-    const Passes& effectSource() const { return alone_.effect.empty() ? inFrame_ : alone_; }
-
     renderer::FrameReport last_; ///< of a frame
     Passes inFrame_;
     Passes alone_;
+    std::vector<double> effect_;
+    std::vector<double> copy_;
     std::vector<double> frame_;
     std::vector<double> recording_;
 };

@@ -9,6 +9,7 @@ renderer::RenderSettings settingsOf(const Configuration& configuration) {
     settings.height = configuration.size.height;
     settings.shadowMapSize = configuration.shadowMapSize;
     settings.copyFloor = true;
+    settings.effectRepetitions = mostRepetitions;
     return settings;
 }
 
@@ -40,11 +41,11 @@ const renderer::FrameReport& Stage::renderFrame(renderer::Timing timing) {
     return actor_->renderer.report();
 }
 
-const renderer::FrameReport& Stage::renderEffect() {
+const renderer::FrameReport& Stage::renderEffect(std::uint32_t repetitions) {
     if (!actor_->rendered) {
-        return renderFrame();
+        renderFrame();
     }
-    actor_->renderer.renderEffect();
+    actor_->renderer.renderEffect(repetitions);
     return actor_->renderer.report();
 }
 

@@ -7,6 +7,9 @@
 
 namespace nacre::bench {
 
+/// Most repetitions of an effect, one after the other, whose mean is one measured time.
+inline constexpr std::uint32_t mostRepetitions = 20;
+
 /// Renders configurations; those of one view and size share a renderer.
 class Stage {
 public:
@@ -16,8 +19,9 @@ public:
     void select(const Configuration& configuration);
     /// Renders the selected configuration.
     const renderer::FrameReport& renderFrame(renderer::Timing timing = renderer::Timing::Passes);
-    /// Repeats the effect on its renderer's last frame, or renders one where there is none yet.
-    const renderer::FrameReport& renderEffect();
+    /// Repeats the effect on its renderer's last frame (Renderer::renderEffect), and renders one before where there is
+    /// none yet.
+    const renderer::FrameReport& renderEffect(std::uint32_t repetitions = 0);
     renderer::Pixels read(renderer::Output output) const { return actor_->renderer.read(output); }
 
 private:

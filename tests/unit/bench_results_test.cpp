@@ -39,6 +39,7 @@ Measurement measurement(double radius, double effect) {
             .frame = times(1000 + effect),
             .effect = times(effect),
             .copy = times(10),
+            .repetitions = 20,
             .recording = times(40),
             .passes = {{"shadow maps", times(400)}, {"scatter: horizontal", times(effect)}},
             .passShare = 0.99,
