@@ -101,17 +101,22 @@ private:
 
     void warmUp() {
         std::size_t done = 0;
-        for (Candidate& candidate : candidates_) {
+        for (const Candidate& candidate : candidates_) {
             Stage& stage = stageOf(candidate);
             stage.select(*candidate.configuration);
             for (std::uint32_t frame = 0; frame < settings_.warmUpFrames; ++frame) {
-                candidate.repetitions = repetitionsOf(stage.renderEffect().effectMicroseconds);
+                stage.renderEffect();
             }
             progress("warming up", ++done, candidates_.size());
         }
         const Clock::time_point begin = Clock::now();
         while (secondsSince(begin) < settings_.warmUpSeconds) {
             stage_.renderFrame();
+        }
+        for (Candidate& candidate : candidates_) { // with the clocks risen
+            Stage& stage = stageOf(candidate);
+            stage.select(*candidate.configuration);
+            candidate.repetitions = repetitionsOf(stage.renderEffect().effectMicroseconds);
         }
     }
 
