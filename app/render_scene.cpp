@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <iterator>
+#include <set>
 
 namespace nacre::app {
 
@@ -122,6 +124,9 @@ Scene makeScene(const RenderOptions& options) {
         material = readMaterial(options.material);
     }
     Scene scene = options.input.empty() ? scene::makeGallery() : scene::load(options.input);
+    for (const std::string& note : std::set(scene.notes.begin(), scene.notes.end())) {
+        std::cerr << "nacre: note: " << note << '\n';
+    }
     if (material) {
         scene::assignMaterial(scene, *material);
     }

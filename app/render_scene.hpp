@@ -9,7 +9,8 @@ namespace nacre::app {
 /// "gallery", or the file's name.
 std::string sceneName(const RenderOptions& options);
 
-/// Loads the scene or builds the gallery, and applies --material, --light and --exposure.
+/// Loads the scene or builds the gallery, says on standard error what its importer left out or assumed (Scene::notes),
+/// and applies --material, --light and --exposure.
 /// Throws UsageError, scene::SceneError or std::runtime_error with one sentence.
 scene::Scene makeScene(const RenderOptions& options);
 

@@ -3,6 +3,7 @@
 #include "scene/assimp_axes.hpp"
 #include "scene/assimp_material.hpp"
 #include "scene/file.hpp"
+#include "scene/import.hpp"
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
 
@@ -158,7 +159,7 @@ private:
         unit = unit == units.end() ? unit - 1 : unit;
         scene_.metersPerUnit = unit->metres;
         if (unit->metres != 1) {
-            scene_.notes.push_back(name_ + ": does not state its unit; taken for " + unit->name);
+            scene_.notes.push_back(name_ + ": " + unitNote + "; taken for " + unit->name);
         }
     }
 

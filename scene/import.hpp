@@ -5,6 +5,9 @@
 
 namespace nacre::scene {
 
+/// In the note (Scene::notes) on a model whose unit was guessed.
+inline constexpr const char* unitNote = "does not state its unit";
+
 /// Reads a model (glTF 2.0, GLB, or any format Assimp knows) or a scene file (JSON, docs/schemas/scene.schema.json),
 /// told apart by content. A model without camera or lights gets a fitted camera and a three-point light set; one with
 /// lights an exposure that goes with them.

@@ -182,7 +182,11 @@ private:
         std::array<const char*, units.size()> unitNames{};
         std::ranges::transform(units, unitNames.begin(), &Unit::name);
         const std::size_t unit = object.choice("units", 0, unitNames);
-        model.metersPerUnit = object.has("units") ? units[unit].metres : model.metersPerUnit;
+        if (object.has("units")) {
+            model.metersPerUnit = units[unit].metres;
+            std::erase_if(model.notes,
+                          [](const std::string& note) { return note.find(unitNote) != std::string::npos; });
+        }
         keepInstances(object, model);
         assignMaterials(path_, object, model);
         dropUnused(model);

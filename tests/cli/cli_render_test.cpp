@@ -244,6 +244,19 @@ std::string cubesScene() {
     return nlohmann::json{{"name", "cubes"}, {"models", cubes}}.dump();
 }
 
+TEST_F(RenderTest, SaysOnceWhatTheImporterAssumed) {
+    writeText(folder() / "large.obj", "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    writeText(folder() / "guessed.json", R"({"models": [{"model": "large.obj"}, {"model": "large.obj"}]})");
+    writeText(folder() / "stated.json", R"({"models": [{"model": "large.obj", "units": "cm"}]})");
+    const std::string note = "large.obj: does not state its unit; taken for centimetres\n";
+    const auto saidBy = [&](const char* scene) { return run({"render", scene, "--size", "16x9"}).error; };
+    const std::string said = saidBy("guessed.json");
+    EXPECT_NE(said.find("nacre: note: "), std::string::npos) << said;
+    EXPECT_NE(said.find(note), std::string::npos) << said;
+    EXPECT_EQ(said.find(note), said.rfind(note)) << said;
+    EXPECT_EQ(saidBy("stated.json").find("note"), std::string::npos);
+}
+
 TEST_F(RenderTest, OneAndSixtyFourMaterialsCostTheSameDispatches) {
     writeText(folder() / "cube.obj", nacre::test::cubeObj);
     writeText(folder() / "cubes.json", cubesScene());

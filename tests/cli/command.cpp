@@ -84,7 +84,7 @@ std::vector<std::string> complaints(const Outcome& outcome) {
     std::vector<std::string> lines;
     std::istringstream text(outcome.error);
     for (std::string line; std::getline(text, line);) {
-        if (!line.ends_with(" …")) {
+        if (!line.ends_with(" …") && !line.starts_with("nacre: note: ")) {
             lines.push_back(line);
         }
     }

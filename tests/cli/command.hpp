@@ -22,7 +22,7 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 Outcome runNacre(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  const Environment& environment = {});
 
-/// What the command said on standard error besides its progress lines.
+/// What the command said on standard error besides its progress lines and notes on the scene.
 std::vector<std::string> complaints(const Outcome& outcome);
 
 /// Asserts the exit code and that standard error is one sentence that contains every one of `parts`.
