@@ -9,10 +9,10 @@ const int threads = 128;
 // one region on the list: there are few such regions, and long threads would leave multiprocessors idle.
 const int ownSide = isEdge ? 1 : 2;
 const int ownPixels = ownSide * ownSide;
-const ivec2 listedSize = ivec2(32, 16);                       // px, of a region on the list
-const ivec2 regionSize = ownSide * ivec2(16, 8);              // px
-const ivec2 fineSize = regionSize / 2;                        // texels of level 1
-const int finePitch = fineSize.x + 2;                         // with one texel around
+const ivec2 listedSize = ivec2(32, 16);          // px, of a region on the list
+const ivec2 regionSize = ownSide * ivec2(16, 8); // px
+const ivec2 fineSize = regionSize / 2;           // texels of level 1
+const int finePitch = fineSize.x + 2;            // with one texel around
 const int fineCount = finePitch * (fineSize.y + 2);
 // The texels of a level that the region's pixels read: from one before its first on, at most this many.
 const ivec2 levelPitch[bankLevels + 1] =
@@ -156,7 +156,8 @@ uvec2 surfaceOf(int index, uvec2 own, uvec2 light) {
     return uvec2(borrowed.x, borrowed.y << 16 | fullMass);
 }
 
-// Where the level is read with plain weights its light has no sign; level 1 is in smooth regions, whatever is beside them.
+// Notes whether a level is plain. Smooth regions read level 1 with plain weights, whatever is beside them, so its light
+// loses its sign.
 void storeLevelTexel(int place, int level, uvec2 light) {
     levelLights[place] = uvec2(light.x, light.y & (level == 1 ? ~signBit : ~0u));
     if (level > 1 && (light.y & signBit) != 0u) {
