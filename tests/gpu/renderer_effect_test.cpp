@@ -227,5 +227,30 @@ TEST_F(Effect, FrameCanBeTimedAsAWhole) {
     EXPECT_FALSE(renderer.report().passes.empty());
 }
 
+TEST_F(Effect, CanBeRepeatedWithoutTimestampsInside) {
+    scene::Scene scene = slab(2, layered(0.5));
+    scene.lights.push_back(directional({0, 0, 1}, 3));
+    renderer::RenderSettings settings = effectSettings();
+    settings.effectRepetitions = 3;
+    settings.copyFloor = true;
+    renderer::Renderer renderer = render(scene, settings);
+    const renderer::Pixels once = renderer.read(Output::Scattered);
+    renderer.renderEffect();
+    const std::size_t passCount = renderer.report().passes.size();
+    double effect = 0;
+    double copy = 0;
+    for (const renderer::PassTime& pass : renderer.report().passes) {
+        (pass.name == "copy" ? copy : effect) += pass.microseconds;
+    }
+    EXPECT_DOUBLE_EQ(renderer.report().effectMicroseconds, effect);
+    EXPECT_DOUBLE_EQ(renderer.report().copyMicroseconds, copy);
+    renderer.renderEffect(3);
+    EXPECT_EQ(renderer.report().passes.size(), passCount);
+    EXPECT_GT(renderer.report().effectMicroseconds, 0.02 * effect); // of one, not of none
+    EXPECT_GT(renderer.report().copyMicroseconds, 0);
+    EXPECT_EQ(renderer.read(Output::Scattered).values, once.values);
+    EXPECT_THROW(renderer.renderEffect(4), renderer::RendererError);
+}
+
 } // namespace
 } // namespace nacre::tests
