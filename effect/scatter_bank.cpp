@@ -77,6 +77,15 @@ VkDeviceSize texelCount(VkExtent2D maxExtent) {
     return VkDeviceSize{cellTexels} * cells.width * cells.height + coarsest.width * coarsest.height;
 }
 
+// Bits of the kernels that have a weight at a bin or the next.
+std::uint32_t usedKernels(const std::uint16_t* bin) {
+    std::uint32_t used = 0;
+    for (std::size_t i = 0; i < 2 * BankTable::halvesPerBin; ++i) {
+        used |= bin[i] != 0 ? 1u << i % BankTable::halvesPerBin / 3 : 0;
+    }
+    return used;
+}
+
 // A kernel's weights at a bin and the next: three halves each.
 uvec4 packWeights(const std::uint16_t* bin, const std::uint16_t* next) {
     const auto pack = [](std::uint16_t low, std::uint16_t high) {
@@ -93,6 +102,7 @@ void buildTable(const Material& material, const Profile& profile, std::span<std:
     words[0].y = std::bit_cast<std::uint32_t>(static_cast<float>(material.strength));
     for (std::size_t i = 1; i < words.size(); ++i) {
         words[i] = packWeights(halves, halves + BankTable::halvesPerBin);
+        words[i].w = (i - 1) % bankBinWords == 0 ? usedKernels(halves) : 0;
         halves += 3;
     }
     std::memcpy(bytes.data(), words.data(), sizeof(words));

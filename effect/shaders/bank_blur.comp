@@ -385,10 +385,14 @@ void listRegion(ivec2 block, int row) {
     // Where materials are separate, pixels are combined tap by tap.
     bool isEdge = separateMaterials || (rough & (row == 0 ? roughUpper : roughLower)) != 0u;
     int kind = isEdge ? 1 : 0;
-    uint index = atomicAdd(dispatches[kind].count, 1u);
-    tileEntries[regionList(kind) + int(index)] = uint(region.y * regionCount().x + region.x);
-    atomicMax(dispatches[kind].x, min(index + 1u, bankDispatchWidth));
-    atomicMax(dispatches[kind].y, index / bankDispatchWidth + 1u);
+    ivec2 regions = regionCount();
+    bool oneRow = uint(regions.x * regions.y) <= bankDispatchWidth; // its width counts: fewer atomic operations
+    uint index = oneRow ? atomicAdd(dispatches[kind].x, 1u) : atomicAdd(dispatches[kind].count, 1u);
+    tileEntries[regionList(kind) + int(index)] = uint(region.y * regions.x + region.x);
+    if (!oneRow) {
+        atomicMax(dispatches[kind].x, min(index + 1u, bankDispatchWidth));
+        atomicMax(dispatches[kind].y, index / bankDispatchWidth + 1u);
+    }
 }
 
 void main() {

@@ -31,6 +31,11 @@ Mixture findMixture(uint material, float depth) {
     return Mixture(first + 1u + bin * bankBinWords, position - float(bin), head.y);
 }
 
+// Bits of the kernels that have a weight.
+uint usedKernels(Mixture mixture) {
+    return bankTables[mixture.first].w;
+}
+
 // Red, green and blue.
 vec3 kernelWeight(Mixture mixture, int kernel) {
     uvec4 words = bankTables[mixture.first + uint(kernel)];

@@ -97,16 +97,17 @@ void addPlainLevel(inout Sum sum, vec3 weight, int level, Corner corner) {
     add(sum, weight, mix(upper, lower, corner.fraction.y));
 }
 
+const uint levelKernels = ~3u; // of usedKernels: all but the identity and the full-resolution 3x3
+
 void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 pixel, float depth, uint material) {
-    [[dont_unroll]] for (int level = 1; level <= bankLevels; ++level) {
+    [[dont_unroll]] for (uint left = usedKernels(mixture) & levelKernels; left != 0u; left &= left - 1u) {
+        int level = findLSB(left) - 1;
         vec3 weight = kernelWeight(mixture, level + 1);
-        if (weight != vec3(0.0)) {
-            Corner corner = levelCorner(level, region, pixel);
-            if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
-                addPlainLevel(sum, weight, level, corner);
-            } else {
-                addWeightedLevel(sum, weight, level, corner, depth, material);
-            }
+        Corner corner = levelCorner(level, region, pixel);
+        if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
+            addPlainLevel(sum, weight, level, corner);
+        } else {
+            addWeightedLevel(sum, weight, level, corner, depth, material);
         }
     }
 }

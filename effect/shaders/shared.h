@@ -151,14 +151,15 @@ struct BrutePixel {
 };
 
 // Mixture table of `bank` in 16-byte words: a head that holds the bin offset and the strength (floats), then of each bin but
-// the last its eight kernels: halves red and green; those of the next bin; blue and that of the next bin; nothing.
+// the last its eight kernels: halves red and green; those of the next bin; blue and that of the next bin; of the first kernel
+// bits of those that have a weight, else nothing.
 NACRE_CONSTANT bankBinWords = 8;
 NACRE_CONSTANT bankTableWords = 1 + 112 * bankBinWords;
-// Workgroups along x of the combination's dispatches; longer lists take several rows.
-NACRE_CONSTANT bankDispatchWidth = 32768;
+// Workgroups along x of the combination's dispatches; longer lists take several rows. All of 7680x4320 fits one.
+NACRE_CONSTANT bankDispatchWidth = 65535;
 struct BankDispatch {
     uint x, y, z; // VkDispatchIndirectCommand
-    uint count;   // regions on the list
+    uint count;   // regions on the list, where it may be longer than a row
 };
 
 // Tables of `burley`, entry i: R in 1/mm² and share of the light within r = radius·share², share = i / (entries - 1).
