@@ -168,6 +168,7 @@ Surface makeSpheres(Dice& dice, int materialCount, double width, double height) 
 
 // Left a plane at 67 degrees to the view, right a corrugated sheet of slopes up to 60 degrees.
 Surface makeTilt(Dice& dice, int materialCount, double, double height) {
+    constexpr double farthest = 8;
     const double turn = dice(0, 2 * pi);
     const double wave = dice(0.18, 0.3) * height;
     const Vector3 normal{std::sin(67 * pi / 180) * std::cos(turn), std::sin(67 * pi / 180) * std::sin(turn),
@@ -178,7 +179,8 @@ Surface makeTilt(Dice& dice, int materialCount, double, double height) {
         if (x < split) {
             const Vector3 ray{x / distance, y / distance, 1};
             const double along = normal.z * distance / dot(normal, ray);
-            return Hit{along - distance, material, normal};
+            const bool inSight = along > 0 && along < farthest * distance; // else the horizon, or behind the camera
+            return inSight ? Hit{along - distance, material, normal} : Hit{0, 0, normal};
         }
         const double phase = 2 * pi * x / wave;
         const double steepest = std::tan(60 * pi / 180);

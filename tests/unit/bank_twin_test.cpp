@@ -44,6 +44,17 @@ TEST(BankTwin, IsCloserWithSecondSurfaces) {
 }
 
 // What does not scatter never enters, however bright.
+TEST(ScatterScenes, LieBeforeTheCamera) {
+    for (const SceneKind kind : allSceneKinds) {
+        for (std::uint32_t seed = 1; seed <= 16; ++seed) {
+            const ScatterScene scene = makeScatterScene({.kind = kind, .seed = seed});
+            for (std::size_t i = 0; i < scene.depth.size(); ++i) {
+                ASSERT_TRUE(scene.materialId[i] == 0 || scene.depth[i] > 0) << scene.name << ", seed " << seed;
+            }
+        }
+    }
+}
+
 TEST(BankTwin, KeepsAConstantFieldConstant) {
     for (const SceneKind kind : allSceneKinds) {
         ScatterScene scene = makeScatterScene({.kind = kind, .footprint = 20, .width = 160, .height = 96});
