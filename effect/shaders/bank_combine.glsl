@@ -22,10 +22,11 @@ struct Mixture {
     float strength;
 };
 
-Mixture findMixture(uint material, float depth) {
+// `pixel`: near where. A surface across the view direction is seen at the same scale everywhere.
+Mixture findMixture(uint material, float depth, ivec2 pixel) {
     uint first = material * bankTableWords;
     vec2 head = uintBitsToFloat(bankTables[first].xy);
-    float position = head.x - float(bankBinsPerOctave) * log2(texelWidth(0, depth));
+    float position = head.x - float(bankBinsPerOctave) * log2(texelWidth(0, depth / stretchAt(pixel)));
     position = clamp(position, 0.0, float(bankBinCount - 1));
     uint bin = min(uint(position), uint(bankBinCount - 2));
     return Mixture(first + 1u + bin * bankBinWords, position - float(bin), head.y);

@@ -128,7 +128,7 @@ void main() {
     ivec2 place = local + 1;
     float depth = pixelDepths[pixelPlace(place)]; // 0 where there is no material
     if (depth > 0.0) {
-        Mixture mixture = findMixture(material, depth);
+        Mixture mixture = findMixture(material, depth, region + local + view.areaOffset);
         Sum sums[1] = Sum[](noSum);
         addIdentity(sums, mixture, place);
         addPixels(sums[0], kernelWeight(mixture, 1), place, material, depth);

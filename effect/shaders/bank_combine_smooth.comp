@@ -200,7 +200,7 @@ void main() {
             members[i] = ownMaterials[i] == material;
             left &= members[i] ? ~(1u << i) : ~0u;
         }
-        Mixture mixture = findMixture(material, quad.depth);
+        Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
         addIdentity(sums, mixture, place);
         addSlopePixels(sums, kernelWeight(mixture, 1), place, quad.beside);

@@ -96,19 +96,25 @@ int pixelPlace(ivec2 pixel) {
                   : (pixel.x & 1) * pairCount + pixel.y * pairPitch + (pixel.x >> 1);
 }
 
+// As pass A's: 0 where nothing was drawn.
+float depthAt(ivec2 pixel) {
+    float z = viewZ(pixel);
+    return isValidZ(z) ? -z * stretchAt(pixel) : 0.0;
+}
+
 vec3 fetchLight(ivec2 local) {
     return texelFetch(irradianceImage, local + view.areaOffset, 0).rgb;
 }
 
 // `place`: counted from the pixel up and left of the region's first.
-void storePixel(ivec2 place, vec3 light, float z, float area, uint material) {
-    bool receives = material != 0u && (!isEdge || isValidZ(z));
+void storePixel(ivec2 place, vec3 light, float depth, float area, uint material) {
+    bool receives = material != 0u && (!isEdge || depth > 0.0);
     bool gives = receives && isFinite(light);
     int index = pixelPlace(place);
     uvec2 words = uvec2(packHalf2x16(min(light.rg, vec2(maxHalf))), packHalf2x16(vec2(min(light.b, maxHalf), 1.0)));
     pixelLights[index] = gives ? words : uvec2(0u);
     if (isEdge) {
-        pixelDepths[index] = receives ? -z : 0.0;
+        pixelDepths[index] = receives ? depth : 0.0;
         pixelAreas[index] = area;
     }
     if (isEdge && separateMaterials) {
@@ -123,7 +129,7 @@ struct Fetched {
     uvec2 quadWords;
     uint areas; // of the quad's pixels
     vec3 light;
-    float z;
+    float depth; // 0 where nothing was drawn
 };
 
 // `place`: counted from the region's first pixel.
@@ -131,7 +137,7 @@ Fetched fetchPixel(ivec2 region, ivec2 place) {
     ivec2 local = clamp(region + place, ivec2(0), view.areaExtent - 1);
     int quad = texelIndex(1, local >> 1);
     return Fetched(local, quad, quads[quad], isEdge ? quadAreas[quad] : 0u, fetchLight(local),
-                   isEdge ? viewZ(local + view.areaOffset) : 0.0);
+                   isEdge ? depthAt(local + view.areaOffset) : 0.0);
 }
 
 // Returns its material, 0 outside the image.
@@ -143,7 +149,7 @@ uint storeFetched(ivec2 region, ivec2 place, Fetched fetched) {
         light *= albedoBefore(fetched.local + view.areaOffset, material);
     }
     float area = unpackAreas(fetched.areas)[(fetched.local.x & 1) + 2 * (fetched.local.y & 1)];
-    storePixel(place + 1, light, fetched.z, area, material);
+    storePixel(place + 1, light, fetched.depth, area, material);
     return material;
 }
 

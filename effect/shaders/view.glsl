@@ -50,6 +50,11 @@ bool isValidZ(float z) {
     return clipW(z) > 0.0 && isFinite(z);
 }
 
+// Length of a pixel's ray where z changes by 1.
+float stretchAt(ivec2 pixel) {
+    return length(vec3(rayAt(pixel), 1.0));
+}
+
 vec3 viewPosition(ivec2 pixel, float z) {
     return vec3(rayAt(pixel) * z + originAt(pixel), z);
 }

@@ -78,6 +78,12 @@ double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* 
 
 } // namespace
 
+// Length of a pixel's ray where its depth along the view direction changes by 1.
+double BankTwin::stretch(int x, int y) const {
+    return std::hypot(1, (x + 0.5 - 0.5 * scene_.width) / scene_.focalLength,
+                      (y + 0.5 - 0.5 * scene_.height) / scene_.focalLength);
+}
+
 // Area of a pixel's surface relative to one that faces the camera.
 double BankTwin::pixelArea(int x, int y) const {
     const auto neighbor = [&](int dx, int dy) -> const RawTexel* {
@@ -112,9 +118,13 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
     tilesY_ = (scene.height + tileSize - 1) / tileSize;
     raw_[0].width = scene.width;
     raw_[0].height = scene.height;
-    for (std::size_t i = 0; i < scene.depth.size(); ++i) {
-        const bool scatters = scene.materialId[i] != 0;
-        raw_[0].texels.push_back(scatters ? RawTexel{scene.irradiance[i], 1, 1, scene.depth[i]} : RawTexel{});
+    for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+            const std::size_t i = scene.index(x, y);
+            const bool scatters = scene.materialId[i] != 0;
+            raw_[0].texels.push_back(scatters ? RawTexel{scene.irradiance[i], 1, 1, scene.depth[i] * stretch(x, y)}
+                                              : RawTexel{});
+        }
     }
     for (int y = 0; settings.areaWeights && y < scene.height; ++y) {
         for (int x = 0; x < scene.width; ++x) {
@@ -319,7 +329,7 @@ bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
 void BankTwin::combinePixel(int x, int y, bool smooth) {
     const std::size_t index = scene_.index(x, y);
     const double depth = smooth ? raw_[1].at(x / 2, y / 2)->depth : raw_[0].at(x, y)->depth;
-    const BankWeights weights = tables_[scene_.materialId[index] - 1].at(scene_.focalLength / depth);
+    const BankWeights weights = tables_[scene_.materialId[index] - 1].at(scene_.focalLength * stretch(x, y) / depth);
     Rgb identity = weights[0];
     for (double& share : identity) {
         share = std::max<double>(share, constants::bankLeastIdentity);

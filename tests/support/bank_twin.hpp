@@ -72,6 +72,7 @@ private:
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
+    double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
     double quadSlope(int x, int y, int dx, int dy) const;

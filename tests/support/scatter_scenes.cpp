@@ -185,7 +185,9 @@ Surface makeTilt(Dice& dice, int materialCount, double, double height) {
         const double phase = 2 * pi * x / wave;
         const double steepest = std::tan(60 * pi / 180);
         const double slope = steepest * std::cos(phase);
-        return Hit{steepest * wave / (2 * pi) * std::sin(phase), material, normalized({slope, 0, -1})};
+        const double depth = steepest * wave / (2 * pi) * std::sin(phase);
+        // Depth is given along rays, which spread.
+        return Hit{depth, material, normalized({slope, 0, -(1 + (depth + x * slope) / distance)})};
     };
 }
 
