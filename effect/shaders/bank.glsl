@@ -54,7 +54,7 @@ struct RawTexel {
     vec3 light;    // irradiance · area, mean over the texel's pixels
     float area;    // surface per pixel, relative to one that faces the camera, mean over the texel's pixels
     float mass;    // [0, 1] share of the texel's pixels that are on the surface; 0 = empty
-    float depth;   // mm, −z in view space
+    float depth;   // mm along the ray
     uint material; // one of the surface's
     bool dropped;  // pixels of another surface were left out, here or further down
 };

@@ -9,7 +9,7 @@ const int bankSize = bankLevels + 2;
 const int bankBinsPerOctave = 8;
 const int bankBinCount = 113;
 
-// Depth acts through Gaussian weights g(q) = max(0, 1 − q/4)⁴ ≈ e^−q of the squared distance along the view direction;
+// Depth acts through Gaussian weights g(q) = max(0, 1 − q/4)⁴ ≈ e^−q of the squared distance along the pixels' rays;
 // t is a texel's width in mm at its depth.
 
 // Reduction: pixels of a 2x2 block further apart in depth than this many texel widths are two surfaces, and the texel

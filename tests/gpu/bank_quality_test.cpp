@@ -35,10 +35,10 @@ struct Case {
 
 // The reference has every seventh pixel.
 TEST_F(BankQualityTest, TwelveScenes) {
-    std::vector<Case> cases{{"bank", NACRE_TECHNIQUE_BANK, VK_FALSE, false, 37, 50},
-                            {"bank-surfaces", NACRE_TECHNIQUE_BANK_SURFACES, VK_FALSE, true, 45, 55}};
+    std::vector<Case> cases{{"bank", NACRE_TECHNIQUE_BANK, VK_FALSE, false, 44, 55},
+                            {"bank-surfaces", NACRE_TECHNIQUE_BANK_SURFACES, VK_FALSE, true, 48, 56}};
     if (gpu.shaderFloat16) {
-        cases.push_back({"bank, half floats", NACRE_TECHNIQUE_BANK, VK_TRUE, false, 37, 50});
+        cases.push_back({"bank, half floats", NACRE_TECHNIQUE_BANK, VK_TRUE, false, 44, 55});
     } else {
         std::printf("The device has no half floats: they are not tested.\n");
     }
