@@ -79,8 +79,7 @@ RingPixel fetchRing(ivec2 tileFirst, int thread) {
 }
 
 float receivingDepth(uint material, ivec2 pixel, float depth) {
-    float z = viewZ(pixel, depth);
-    return material != 0u && isValidZ(z) ? -z * stretchAt(pixel) : 0.0;
+    return material != 0u ? distanceAlongRay(pixel, viewZ(pixel, depth)) : 0.0;
 }
 
 void decodeBlock(inout Block block, ivec2 first) {

@@ -96,12 +96,6 @@ int pixelPlace(ivec2 pixel) {
                   : (pixel.x & 1) * pairCount + pixel.y * pairPitch + (pixel.x >> 1);
 }
 
-// As pass A's: 0 where nothing was drawn.
-float depthAt(ivec2 pixel) {
-    float z = viewZ(pixel);
-    return isValidZ(z) ? -z * stretchAt(pixel) : 0.0;
-}
-
 vec3 fetchLight(ivec2 local) {
     return texelFetch(irradianceImage, local + view.areaOffset, 0).rgb;
 }
@@ -129,7 +123,7 @@ struct Fetched {
     uvec2 quadWords;
     uint areas; // of the quad's pixels
     vec3 light;
-    float depth; // 0 where nothing was drawn
+    float depth; // along the ray, 0 where nothing was drawn
 };
 
 // `place`: counted from the region's first pixel.
@@ -137,7 +131,7 @@ Fetched fetchPixel(ivec2 region, ivec2 place) {
     ivec2 local = clamp(region + place, ivec2(0), view.areaExtent - 1);
     int quad = texelIndex(1, local >> 1);
     return Fetched(local, quad, quads[quad], isEdge ? quadAreas[quad] : 0u, fetchLight(local),
-                   isEdge ? depthAt(local + view.areaOffset) : 0.0);
+                   isEdge ? distanceAlongRay(local + view.areaOffset, viewZ(local + view.areaOffset)) : 0.0);
 }
 
 // Returns its material, 0 outside the image.

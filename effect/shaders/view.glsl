@@ -55,6 +55,12 @@ float stretchAt(ivec2 pixel) {
     return length(vec3(rayAt(pixel), 1.0));
 }
 
+// How far a pixel's surface is along its ray, mm; 0 where nothing was drawn.
+float distanceAlongRay(ivec2 pixel, float z) {
+    float along = -z * stretchAt(pixel);
+    return isValidZ(z) && isFinite(along) ? along : 0.0;
+}
+
 vec3 viewPosition(ivec2 pixel, float z) {
     return vec3(rayAt(pixel) * z + originAt(pixel), z);
 }
