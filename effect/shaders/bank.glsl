@@ -175,7 +175,8 @@ ivec2 ringPosition(int index, ivec2 size) {
     return ivec2((side & 1) == 0 ? -1 : size.x, side >> 1);
 }
 
-// Width of a texel in mm, where the surface faces the camera. Level 0 are the pixels.
+// Width of a texel in mm, where the surface faces the camera; for a depth along the ray as much too wide as that ray is
+// longer than the view's middle one. Level 0 are the pixels.
 float texelWidth(int level, float depth) {
     return float(1 << level) * parameters.pixelWidth * clipW(-depth);
 }
