@@ -33,9 +33,12 @@ static_assert(bankTableWords == 1 + bankBinWords * (constants::bankBinCount - 1)
 
 constexpr std::size_t tableBytes = sizeof(uvec4) * bankTableWords;
 
-constexpr std::uint32_t tileSize = 16;    // px, bank.glsl
-constexpr std::uint32_t cellSize = 32;    // px, 2x2 tiles, of which the pyramid is made
-constexpr std::uint32_t blurSide = 16;    // texels, bank_blur.comp
+constexpr std::uint32_t tileSize = 16;   // px, bank.glsl
+constexpr std::uint32_t cellSize = 32;   // px, 2x2 tiles, of which the pyramid is made
+constexpr VkExtent2D regionSize{32, 16}; // px, bank_region.glsl
+constexpr VkExtent2D blurBlock{16, 8};   // texels, bank_blur.comp
+constexpr std::uint32_t blurThreads = blurBlock.width * blurBlock.height;
+constexpr std::uint32_t coarsestBlurRows = 2;
 constexpr std::uint32_t cellTexels = 341; // levels 1 … 5
 
 VkExtent2D cellCount(VkExtent2D area) {
@@ -54,14 +57,22 @@ VkExtent3D reduceGrid(VkExtent2D area) {
     return {cells.width * (cellSize / tileSize), cells.height * (cellSize / tileSize), 1};
 }
 
-// Workgroups that blur a level.
-std::uint32_t blockCount(VkExtent2D area, int level) {
-    const VkExtent2D extent = levelExtent(area, level);
-    const std::uint32_t rows = level == 1 ? blurSide : blurSide / 2;
-    return (extent.width + blurSide - 1) / blurSide * ((extent.height + rows - 1) / rows);
+std::uint32_t ratioUp(std::uint32_t value, std::uint32_t divisor) {
+    return (value + divisor - 1) / divisor;
 }
 
-// One workgroup per block of any level, in rows of at most bankDispatchWidth.
+// Workgroups that blur a level or, in place of level 1, list the regions.
+std::uint32_t blockCount(VkExtent2D area, int level) {
+    if (level == 1) {
+        const VkExtent2D cells = cellCount(area);
+        return ratioUp(cells.width * cells.height * (cellSize / regionSize.height), blurThreads);
+    }
+    const VkExtent2D extent = levelExtent(area, level);
+    const std::uint32_t rows = level == bankLevels ? coarsestBlurRows : blurBlock.height;
+    return ratioUp(extent.width, blurBlock.width) * ratioUp(extent.height, rows);
+}
+
+// One workgroup per block of any level and for the lists, in rows of at most bankDispatchWidth.
 VkExtent3D blurGrid(VkExtent2D area) {
     std::uint32_t count = 0;
     for (int level = 1; level <= bankLevels; ++level) {
@@ -165,8 +176,10 @@ VkDeviceSize bankRawBytes(VkExtent2D maxExtent) {
     return sizeof(uvec4) * texelCount(maxExtent);
 }
 
+// One for each texel but those of level 1.
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
-    return sizeof(uvec2) * texelCount(maxExtent);
+    const VkExtent2D finest = levelExtent(maxExtent, 1);
+    return sizeof(uvec2) * (texelCount(maxExtent) - VkDeviceSize{finest.width} * finest.height);
 }
 
 // One for each texel of level 1.

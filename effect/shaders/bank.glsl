@@ -8,10 +8,10 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) bu
     uvec4 rawTexels[]; // levels 1 … 6
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) buffer BankBlurred {
-    uvec2 blurredLights[]; // levels 1 … 6: light and mass, with a sign where the texel is not plain
+    uvec2 blurredLights[]; // levels 2 … 6 (blurredIndex): light and mass, with a sign where the texel is not plain
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std430) buffer BankSurfaces {
-    // Levels 1 … 6: depth and material that an empty texel's kernel stands on. A raw texel that is not empty has both.
+    // Of the same texels: depth and material that an empty texel's kernel stands on. A raw texel that is not empty has both.
     uvec2 borrowedSurfaces[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) buffer BankQuads {
@@ -30,7 +30,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
-    // Per tile: whether pixels have a material; then the list of smooth regions, then that of edge regions.
+    // Per tile: tileOccupied, tileRough; then the list of smooth regions, then that of edge regions.
     uint tileEntries[];
 };
 
@@ -73,9 +73,10 @@ RawTexel emptyTexel() {
     return RawTexel(vec3(0.0), 0.0, 0.0, 0.0, 0u, false);
 }
 
+// Light as the mean irradiance of the surface, so that a constant field is stored as what it is.
 uvec4 packRaw(RawTexel texel) {
     uint mass = packHalf2x16(vec2(texel.dropped ? -texel.mass : texel.mass, 0.0));
-    vec3 light = min(texel.light, vec3(maxHalf));
+    vec3 light = min(texel.light / max(texel.area, bankLeastWeight), vec3(maxHalf));
     return uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, texel.area)),
                  floatBitsToUint(texel.depth), mass | texel.material << 16);
 }
@@ -84,7 +85,7 @@ RawTexel unpackRaw(uvec4 words) {
     vec2 redGreen = unpackHalf2x16(words.x);
     vec2 blueArea = unpackHalf2x16(words.y);
     float mass = unpackHalf2x16(words.w & ~secondBit).x;
-    return RawTexel(vec3(redGreen, blueArea.x), blueArea.y, abs(mass), uintBitsToFloat(words.z), words.w >> 16,
+    return RawTexel(vec3(redGreen, blueArea.x) * blueArea.y, blueArea.y, abs(mass), uintBitsToFloat(words.z), words.w >> 16,
                     mass < 0.0);
 }
 
@@ -153,9 +154,24 @@ int regionList(int kind) {
     return (2 + kind) * regions.x * regions.y;
 }
 
+// Bits of a tile's entry: whether pixels have a material,
+const uint tileOccupied = 1u;
+
+// and whether depth makes a step or pixels were left out at its corners, along its sides and inside, nine in all. The one
+// that a 2x2 block of its pixels belongs to; `side`: blocks a side.
+uint tileRough(ivec2 block, int side) {
+    ivec2 third = ivec2(greaterThan(block, ivec2(0))) + ivec2(equal(block, ivec2(side - 1)));
+    return 2u << (3 * third.y + third.x);
+}
+
 int texelIndex(int level, ivec2 texel) {
     ivec4 place = parameters.bankLevels[level];
     return place.x + texel.y * place.y + texel.x;
+}
+
+// Of a texel of the levels that are blurred, whose place in the whole pyramid `index` is.
+int blurredIndex(int index) {
+    return index - parameters.bankLevels[2].x;
 }
 
 // A texel's words; those of an empty one outside the level.
@@ -181,6 +197,12 @@ float texelWidth(int level, float depth) {
     return float(1 << level) * parameters.pixelWidth * clipW(-depth);
 }
 
+// Pixels a millimetre takes at a depth along the view direction, in bins of the weight tables. A surface across the view
+// direction is seen at the same scale everywhere.
+float scaleAt(float viewDepth) {
+    return -float(bankBinsPerOctave) * log2(texelWidth(0, viewDepth));
+}
+
 // Depth step from a pixel to the next along one axis, in pixel widths, from the depths on either side (0 = none): their
 // mean or, where one side is a step to another surface, the smaller.
 float pixelStep(float before, float depth, float after) {
@@ -200,13 +222,14 @@ float areaOf(float depth, vec4 around) {
     return min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
 }
 
-// Areas in [1, bankLargestArea], each to within half a percent.
+// Areas in [1, bankLargestArea), each to within one percent: two bits of a float's exponent and six of its mantissa.
 uint packAreas(vec4 areas) {
-    return packUnorm4x8(log2(areas) / log2(bankLargestArea));
+    uvec4 codes = min((floatBitsToUint(areas) - 0x3f7f0000u) >> 17, uvec4(255u));
+    return codes.x | codes.y << 8 | codes.z << 16 | codes.w << 24;
 }
 
-vec4 unpackAreas(uint areas) {
-    return exp2(log2(bankLargestArea) * unpackUnorm4x8(areas));
+float unpackArea(uint areas, int i) {
+    return uintBitsToFloat(0x3f800000u + ((areas >> 8 * i & 255u) << 17));
 }
 
 // e^−q, near enough, and 0 from q = 4 on.

@@ -125,16 +125,16 @@ void addTaps(inout Sum sum, vec3 weight, Taps taps, float scale) {
 // of it in shared memory; of the pixels' light there what is not scattered leaves.
 void storeGroup(ivec2 local, ivec2 place, bvec4 members, uint material, float strength, Sum sums[ownPixels]) {
     ivec2 first = local + view.areaOffset;
-    vec4 strengths = vec4(strength);
-    if (hasFlag(flagStrength)) {
-        [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-            strengths[i] *= members[i] ? strengthAt(first + ivec2(i & 1, i >> 1)) : 1.0;
-        }
-    }
     vec3 leaving[ownPixels];
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-        vec4 own = lightAt(place + ivec2(i & 1, i >> 1));
-        leaving[i] = mix(own.rgb, quotient(sums[i]), own.w > 0.0 ? strengths[i] : 1.0);
+        leaving[i] = quotient(sums[i]);
+    }
+    if (strength < 1.0 || hasFlag(flagStrength)) {
+        [[unroll]] for (int i = 0; i < ownPixels; ++i) {
+            float share = strength * (members[i] ? strengthAt(first + ivec2(i & 1, i >> 1)) : 1.0);
+            vec4 own = lightAt(place + ivec2(i & 1, i >> 1));
+            leaving[i] = mix(own.rgb, leaving[i], own.w > 0.0 ? share : 1.0);
+        }
     }
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {

@@ -6,28 +6,62 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// Fetches everything before anything is used, so that the fetches overlap: one half of the threads level 1 and the pixels
-// around, the other the coarser levels. Returns the material of the thread's pixel.
+// Of level 1's texels as reduced, beside fineLights.
+shared uvec2 fineSurfaces[fineCount]; // the other two words
+shared uvec4 fineSeconds[secondLevels > 0 ? fineCount : 1];
+
+const int pitch = finePitch;
+
+RawTexel texelAt(int index) {
+    return unpackRaw(uvec4(fineLights[index], fineSurfaces[index]));
+}
+
+float depthAt(int index) {
+    return uintBitsToFloat(fineSurfaces[index].x);
+}
+
+bool hasSecondAt(int index) {
+    return secondLevels > 0 && (fineSurfaces[index].y & secondBit) != 0u;
+}
+
+RawTexel secondAt(int index) {
+    return unpackRaw(fineSeconds[index]);
+}
+
+#include "bank_kernel.glsl"
+
+// Fetches everything before anything is used, so that the fetches overlap: one half of the threads the pixels around, the
+// other the coarser levels. Returns the material of the thread's pixel.
 uint loadRegion(ivec2 region, int thread, ivec2 local) {
     Fetched own = fetchPixel(region, local);
-    bool isFine = thread < threads / 2;
-    int count = isFine ? fineCount : coarseCount;
-    int texel = thread % (threads / 2);
-    int place = min(texel, count - 1);
+    bool isCoarse = thread >= threads / 2;
+    int place = min(thread % (threads / 2), coarseCount - 1);
     int level = 1;
     int index;
+    uvec2 light;
+    uvec2 surface;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel;
-    if (isFine) {
-        index = globalIndex(1, (region >> 1) + ivec2(place % finePitch, place / finePitch) - 1);
-        ringPixel = fetchPixel(region, ring);
-    } else {
+    if (isCoarse) {
         index = coarseIndex(place, region, level);
-        place += fineCount;
+        light = blurredLights[blurredIndex(index)];
+        surface = rawTexels[index].zw;
+    } else {
+        ringPixel = fetchPixel(region, ring);
     }
-    uvec2 light = blurredLights[index];
-    uvec2 surface = rawTexels[index].zw;
-    if (texel < count) {
+    int fine = min(thread, fineCount - 1);
+    ivec2 fineTexel = (region >> 1) + ivec2(fine % finePitch, fine / finePitch) - 2;
+    uvec4 words = rawWords(1, fineTexel);
+    if (thread < fineCount) {
+        fineLights[fine] = words.xy;
+        fineSurfaces[fine] = words.zw;
+        if (hasSecondAt(fine)) {
+            int second = 3 * texelIndex(1, fineTexel);
+            fineSeconds[fine] = uvec4(secondTexels[second], secondTexels[second + 1]);
+        }
+    }
+    if (isCoarse && thread % (threads / 2) < coarseCount) {
+        place += levelStart[2];
         storeLevelTexel(place, level, light);
         storeSurfaces(place, index, surface, light);
     }
@@ -35,6 +69,40 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
         storeFetched(region, ring, ringPixel);
     }
     return storeFetched(region, local, own);
+}
+
+// Level 1's 3x3 mean at a texel of the region, or around it.
+BlurredTexel blurFine(int center, BlurredTexel surface) {
+    float width = texelWidth(1, surface.depth);
+    Sums sums = Sums(vec3(0.0), 0.0);
+    [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
+        [[unroll]] for (int x = -1; x <= 1; ++x) {
+            addTaps(sums, center + x + y * pitch, surface, 1.0 / 9.0, width);
+        }
+    }
+    divide(surface, sums);
+    return surface;
+}
+
+// Blurs level 1, a texel a thread; the other half of the threads takes second surfaces.
+void blurFineLevel(int thread) {
+    int place = thread % (threads / 2);
+    if (place >= levelStart[2]) {
+        return;
+    }
+    ivec2 texel = ivec2(place % levelPitch[1].x, place / levelPitch[1].x);
+    int center = fineIndex(texel - 1);
+    if (thread < threads / 2) {
+        BlurredTexel blurred = blurFine(center, findSurface(1, center));
+        levelLights[place] = packBlurred(blurred);
+        uvec2 own = fineSurfaces[center];
+        bool borrows = (own.y & massBits) == 0u && blurred.present;
+        levelSurfaces[place] = borrows ? uvec2(floatBitsToUint(blurred.depth), blurred.material << 16 | fullMass) : own;
+    } else if (hasSecondAt(center)) {
+        BlurredTexel blurred = blurFine(center, findSecond(center));
+        secondLights[place] = packBlurred(blurred);
+        secondSurfaceWords[place] = fineSeconds[center].zw;
+    }
 }
 
 // Fourth roots of ½ and ¼, the weights along an axis of the middle of the full-resolution 3x3 and of what is beside it.
@@ -124,6 +192,8 @@ void main() {
     }
     barrier();
     uint material = loadRegion(region, thread, local);
+    barrier();
+    blurFineLevel(thread);
     barrier();
     ivec2 place = local + 1;
     float depth = pixelDepths[pixelPlace(place)]; // 0 where there is no material

@@ -17,11 +17,17 @@ const bool isEdge = false;
 Light storedLight(uvec2 words) {
     return Light(unpackFloat2x16(words.x), unpackFloat2x16(words.y));
 }
+uvec2 packLight(Light light) {
+    return uvec2(packFloat2x16(light.rg), packFloat2x16(light.ba));
+}
 #else
 #define Real float
 #define Light vec4
 Light storedLight(uvec2 words) {
     return unpackLight(words);
+}
+uvec2 packLight(Light light) {
+    return uvec2(packHalf2x16(light.rg), packHalf2x16(light.ba));
 }
 #endif
 
@@ -37,31 +43,58 @@ void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
         }
         [[unroll]] for (int x = 0; x < 2; ++x) {
             Light middle = row[x + 1];
-            rows[y][x] = middle + Real(side.x) * (row[x] - middle) + Real(side.x) * (row[x + 2] - middle);
+            rows[y][x] = fma(Light(side.x), row[x] - middle, fma(Light(side.x), row[x + 2] - middle, middle));
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
-        vec4 middle = vec4(rows[y + 1][x]);
+        Light middle = rows[y + 1][x];
         add(sums[i], weight,
-            middle + side.y * (vec4(rows[y][x]) - middle) + side.y * (vec4(rows[y + 2][x]) - middle));
+            vec4(fma(Light(side.y), rows[y][x] - middle, fma(Light(side.y), rows[y + 2][x] - middle, middle))));
     }
 }
 
-// Level 1, whose texels are the quads: bilinear weights ¼ and ¾ of the 3x3 texels around.
-void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel) {
-    const Real quarter = Real(0.25);
-    Light rows[3][2];
-    [[unroll]] for (int y = 0; y < 3; ++y) {
-        int index = fineIndex(texel + ivec2(0, y - 1));
-        Light middle = storedLight(levelLights[index]);
-        rows[y][0] = middle + quarter * (storedLight(levelLights[index - 1]) - middle);
-        rows[y][1] = middle + quarter * (storedLight(levelLights[index + 1]) - middle);
+// Level 1, whose texels are the quads: along an axis the 3x3 mean and the bilinear reading of it, ¼ and ¾, are one kernel
+// of four texels for either pixel of a quad.
+struct FineKernel {
+    Real near;  // weight of the texel that a pixel is closer to,
+    Real far;   // of the one on the other side,
+    Real outer; // and of the one beyond the near one; the rest is the quad's own
+};
+
+// `side`: weight of a texel beside the mean's middle one, of 1 in all.
+FineKernel fineKernel(float side) {
+    return FineKernel(Real(0.25 + 0.25 * side), Real(0.75 * side), Real(0.25 * side));
+}
+
+Light filterFine(FineKernel kernel, Light outer, Light near, Light own, Light far) {
+    Light inner = fma(Light(kernel.near), near - own, fma(Light(kernel.far), far - own, own));
+    return fma(Light(kernel.outer), outer - own, inner);
+}
+
+// On a slope the mean's taps have its depths; `beside`: of the full-resolution 3x3, whose falloff is that of a wider variance.
+void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel, vec2 beside) {
+    vec2 falloffs = 2.0 * beside;
+    falloffs *= sqrt(falloffs);
+    vec2 side = falloffs / (1.0 + 2.0 * falloffs);
+    FineKernel kernelX = fineKernel(side.x);
+    FineKernel kernelY = fineKernel(side.y);
+    Light rows[5][2];
+    [[unroll]] for (int y = 0; y < 5; ++y) {
+        int index = fineIndex(texel + ivec2(-2, y - 2));
+        Light row[5];
+        [[unroll]] for (int x = 0; x < 5; ++x) {
+            row[x] = storedLight(fineLights[index + x]);
+        }
+        rows[y][0] = filterFine(kernelX, row[0], row[1], row[2], row[3]);
+        rows[y][1] = filterFine(kernelX, row[4], row[3], row[2], row[1]);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        vec4 middle = vec4(rows[1][i & 1]);
-        add(sums[i], weight, mix(middle, vec4(rows[i >> 1 == 0 ? 0 : 2][i & 1]), 0.25));
+        int x = i & 1;
+        vec4 lightAndMass = i < 2 ? vec4(filterFine(kernelY, rows[0][x], rows[1][x], rows[2][x], rows[3][x]))
+                                  : vec4(filterFine(kernelY, rows[4][x], rows[3][x], rows[2][x], rows[1][x]));
+        add(sums[i], weight, lightAndMass);
     }
 }
 
@@ -79,10 +112,10 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
     Light upperSlope = storedLight(levelLights[corner.place + 1]) - upperLeft;
     Light lowerSlope = storedLight(levelLights[below + 1]) - lowerLeft;
     [[unroll]] for (int x = 0; x < 2; ++x) {
-        Light upper = upperLeft + Real(fraction.x) * upperSlope;
-        Light slope = lowerLeft + Real(fraction.x) * lowerSlope - upper;
-        add(sums[x], weight, vec4(upper + Real(fraction.y) * slope));
-        add(sums[x + 2], weight, vec4(upper + Real(fraction.y + step) * slope));
+        Light upper = fma(Light(fraction.x), upperSlope, upperLeft);
+        Light slope = fma(Light(fraction.x), lowerSlope, lowerLeft) - upper;
+        add(sums[x], weight, vec4(fma(Light(fraction.y), slope, upper)));
+        add(sums[x + 2], weight, vec4(fma(Light(fraction.y + step), slope, upper)));
         fraction.x += step;
     }
 }
@@ -93,7 +126,7 @@ void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, 
     Taps taps[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = corner.place + (i & 1) + (i >> 1) * levelPitch[level].x;
-        uvec2 surface = levelSurfaces[place - surfaceStart];
+        uvec2 surface = levelSurfaces[place];
         float distance = uintBitsToFloat(surface.x) - depth;
         float tapWeight = surfaceWeight(surface, distance, scale, material);
         taps[i] = Taps(tapWeight * weightedLight(levelLights[place]), tapWeight, tapWeight * distance);
@@ -123,23 +156,40 @@ void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 fir
     }
 }
 
+// A texel of level 1, as reduced, without the surface's area: light times mass, and mass.
+void storeFine(ivec2 texel, uvec2 words) {
+    Light lightAndArea = storedLight(words);
+    Real mass = min(lightAndArea.w, Real(1.0));
+    fineLights[fineIndex(texel)] = packLight(Light(lightAndArea.rgb * mass, mass));
+}
+
+const int fineRingCount = fineCount - threads; // two texels wide
+
+// Position of one of the texels of level 1 around the region's: the rows above and below, then the sides.
+ivec2 fineRingPosition(int index) {
+    int beyond = index - 4 * finePitch;
+    int row = int((float(index) + 0.5) / float(finePitch));
+    return beyond < 0 ? ivec2(index - row * finePitch - 2, row < 2 ? row - 2 : row + fineSize.y - 2)
+                      : ivec2((beyond & 3) < 2 ? (beyond & 3) - 2 : (beyond & 3) + fineSize.x - 2, beyond >> 2);
+}
+
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
 Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
     int fine = texelIndex(1, (region >> 1) + texel);
     uvec2 quadWords = quads[fine];
-    uvec2 fineLight = blurredLights[fine];
+    uvec2 fineLight = rawTexels[fine].xy;
     ivec2 first = region + 2 * texel;
     vec3 lights[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         lights[i] = fetchLight(min(first + ivec2(i & 1, i >> 1), last));
     }
     int ringThread = threads - 1 - thread;
-    ivec2 fineRing = ringPosition(min(ringThread, fineRingCount - 1), fineSize);
-    uvec2 ringLight = blurredLights[globalIndex(1, (region >> 1) + fineRing)];
+    ivec2 fineRing = fineRingPosition(min(ringThread, fineRingCount - 1));
+    uvec2 ringLight = rawWords(1, (region >> 1) + fineRing).xy;
     int level;
     int coarse = coarseIndex(min(thread, coarseCount - 1), region, level);
-    uvec2 coarseLight = blurredLights[coarse];
+    uvec2 coarseLight = blurredLights[blurredIndex(coarse)];
     uvec2 coarseSurface = rawTexels[coarse].zw;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel = fetchPixel(region, ring);
@@ -150,13 +200,13 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
             lights[i] *= albedoBefore(pixel + view.areaOffset, pixelMaterial(quad.materials, ivec2(i & 1, i >> 1)));
         }
     }
-    storeLevelTexel(fineIndex(texel), 1, fineLight);
+    storeFine(texel, fineLight);
     if (ringThread < fineRingCount) {
-        storeLevelTexel(fineIndex(fineRing), 1, ringLight);
+        storeFine(fineRing, ringLight);
     }
     if (thread < coarseCount) {
-        storeLevelTexel(fineCount + thread, level, coarseLight);
-        storeSurfaces(fineCount + thread, coarse, coarseSurface, coarseLight);
+        storeLevelTexel(thread, level, coarseLight);
+        storeSurfaces(thread, coarse, coarseSurface, coarseLight);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
@@ -204,7 +254,7 @@ void main() {
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
         addIdentity(sums, mixture, place);
         addSlopePixels(sums, kernelWeight(mixture, 1), place, quad.beside);
-        addFinestLevel(sums, kernelWeight(mixture, 2), texel);
+        addFinestLevel(sums, kernelWeight(mixture, 2), texel, quad.beside);
         addCoarseLevels(sums, mixture, region, first, quad.depth, material);
         storeGroup(first, place, members, material, mixture.strength, sums);
     }

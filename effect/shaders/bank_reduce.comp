@@ -17,13 +17,15 @@ shared uvec4 plainTexels[4]; // level 3 of a plain tile
 const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
 shared uint occupied; // whether some pixel has a material
-shared uint notPlain; // whether some block is not plain
+shared uint roughness; // notPlain, and tileRough of the tile's blocks
+const uint notPlain = 1u; // some block is not plain
 
 // 2x2 px, row by row.
 struct Block {
     uint material[4];
     float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
     vec3 light[4];  // irradiance; from decodeBlock on as it enters
+    float stretch;  // stretchAt in the middle, from decodeBlock on
 };
 
 // One of the pixels around the tile.
@@ -83,8 +85,10 @@ float receivingDepth(uint material, ivec2 pixel, float depth) {
 }
 
 void decodeBlock(inout Block block, ivec2 first) {
+    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+    vec4 along = distancesAlongRays(first + view.areaOffset, depth, block.stretch);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        block.depth[i] = receivingDepth(block.material[i], imagePixel(first + offsetOf(i)), block.depth[i]);
+        block.depth[i] = block.material[i] != 0u ? along[i] : 0.0;
     }
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -207,7 +211,28 @@ Reduced reduceAny(Block block, Sides sides) {
     return result;
 }
 
-Reduced reduceBlock(Block block, int place) {
+float surfaceStep(float a, float b) {
+    return min(a, b) > 0.0 ? abs(a - b) : 0.0;
+}
+
+float longestSurfaceStep(float before, float first, float second, float after) {
+    return max(max(surfaceStep(before, first), surfaceStep(first, second)), surfaceStep(second, after));
+}
+
+// Whether a block that is not plain, or a pixel beside it, is no place for plain weights.
+bool isRough(Block block, Sides sides) {
+    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+    float longest = max(max(longestSurfaceStep(sides.left.x, depth.x, depth.y, sides.right.x),
+                            longestSurfaceStep(sides.left.y, depth.z, depth.w, sides.right.y)),
+                        max(longestSurfaceStep(sides.above.x, depth.x, depth.z, sides.below.x),
+                            longestSurfaceStep(sides.above.y, depth.y, depth.w, sides.below.y)));
+    vec4 leastBeside = min(min(vec4(sides.left, sides.right), vec4(sides.above, sides.below)), depth);
+    bool hasHole = min(min(leastBeside.x, leastBeside.y), min(leastBeside.z, leastBeside.w)) == 0.0;
+    float width = texelWidth(0, max(max(depth.x, depth.y), max(depth.z, depth.w)));
+    return longest > (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * width;
+}
+
+Reduced reduceBlock(Block block, int place, ivec2 texel) {
     Sides sides = sidesOf(place);
     float width = texelWidth(0, block.depth[0]);
     Reduced reduced;
@@ -218,7 +243,8 @@ Reduced reduceBlock(Block block, int place) {
     }
     if (!plain) {
         reduced = reduceAny(block, sides);
-        atomicOr(notPlain, 1u);
+        bool rough = reduced.texel.dropped || isRough(block, sides);
+        atomicOr(roughness, notPlain | (rough ? tileRough(texel, side) : 0u));
     }
     return reduced;
 }
@@ -269,13 +295,14 @@ struct PlainSum {
 };
 
 void addTexel(inout PlainSum sum, uvec4 words) {
-    sum.lightAndArea += vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+    vec2 blueArea = unpackHalf2x16(words.y);
+    sum.lightAndArea += blueArea.y * vec4(unpackHalf2x16(words.x), blueArea.x, 1.0);
     sum.depth += uintBitsToFloat(words.z);
 }
 
 uvec4 storeMean(int level, ivec2 texel, PlainSum sum, float count, uint lastWord) {
-    vec4 mean = sum.lightAndArea / count;
-    uvec4 words = uvec4(packHalf2x16(mean.xy), packHalf2x16(mean.zw), floatBitsToUint(sum.depth / count), lastWord);
+    vec3 light = sum.lightAndArea.rgb / sum.lightAndArea.a;
+    uvec4 words = uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, sum.lightAndArea.a / count)), floatBitsToUint(sum.depth / count), lastWord);
     rawTexels[texelIndex(level, texel)] = words;
     return words;
 }
@@ -331,12 +358,9 @@ void emptyTile(ivec2 tile, ivec2 texel, int thread) {
     }
 }
 
-void beginTile(ivec2 tile) {
-    tileEntries[tileIndex(tile)] = occupied;
-    if (tile == ivec2(0)) {
-        dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
-        dispatches[1] = BankDispatch(0u, 1u, edgeParts, 0u);
-    }
+void clearDispatches() {
+    dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
+    dispatches[1] = BankDispatch(0u, 1u, edgeParts, 0u);
 }
 
 void main() {
@@ -346,7 +370,7 @@ void main() {
     ivec2 first = tile * tileSize + 2 * texel;
     if (thread == 0) {
         occupied = 0u;
-        notPlain = 0u;
+        roughness = 0u;
     }
     barrier();
     // Everything is fetched before anything is asked, so that the fetches overlap.
@@ -356,10 +380,13 @@ void main() {
         atomicOr(occupied, 1u);
     }
     barrier();
-    if (thread == 0) {
-        beginTile(tile);
+    if (thread == 0 && tile == ivec2(0)) {
+        clearDispatches();
     }
     if (occupied == 0u) {
+        if (thread == 0) {
+            tileEntries[tileIndex(tile)] = 0u;
+        }
         emptyTile(tile, texel, thread);
         return;
     }
@@ -370,14 +397,17 @@ void main() {
     }
     depths[ring.place] = receivingDepth(ring.material, ring.pixel, ring.depth);
     barrier();
-    Reduced reduced = reduceBlock(block, place);
+    Reduced reduced = reduceBlock(block, place, texel);
     storeSurfaces(Surfaces(reduced.texel, reduced.second), thread, 1, tile * side + texel);
     int index = texelIndex(1, tile * side + texel);
     storeQuad(index, Quad(reduced.texel.depth, weightsBeside(reduced.slope),
                           uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16)));
     quadAreas[index] = packAreas(reduced.areas);
     barrier();
-    if (notPlain == 0u) {
+    if (thread == 0) {
+        tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notPlain);
+    }
+    if (roughness == 0u) {
         reducePlainTile(tile, thread);
         return;
     }

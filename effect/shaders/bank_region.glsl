@@ -12,33 +12,33 @@ const int ownPixels = ownSide * ownSide;
 const ivec2 listedSize = ivec2(32, 16);          // px, of a region on the list
 const ivec2 regionSize = ownSide * ivec2(16, 8); // px
 const ivec2 fineSize = regionSize / 2;           // texels of level 1
-const int finePitch = fineSize.x + 2;            // with one texel around
-const int fineCount = finePitch * (fineSize.y + 2);
-// The texels of a level that the region's pixels read: from one before its first on, at most this many.
+// Level 1 is loaded as reduced, with two texels around, for its 3x3 mean and to read that bilinearly.
+const int finePitch = fineSize.x + 4;
+const int fineCount = finePitch * (fineSize.y + 4);
+// The texels of a level that the region's pixels read once it is blurred: from one before its first on, at most this many.
+// Only edge regions keep level 1's.
 const ivec2 levelPitch[bankLevels + 1] =
     isEdge ? ivec2[](ivec2(0), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3), ivec2(3, 3))
-           : ivec2[](ivec2(0), ivec2(18, 10), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3));
+           : ivec2[](ivec2(0), ivec2(0), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3));
 const int levelStart[bankLevels + 2] =
-    isEdge ? int[](0, 0, 60, 84, 96, 105, 114, 123) : int[](0, 0, 180, 240, 264, 276, 285, 294);
-const int coarseCount = levelStart[bankLevels + 1] - fineCount;
+    isEdge ? int[](0, 0, 60, 84, 96, 105, 114, 123) : int[](0, 0, 0, 60, 84, 96, 105, 114);
+const int coarseCount = levelStart[bankLevels + 1] - levelStart[2];
 const int levelTexelCount = levelStart[bankLevels + 1];
 
 const int pairPitch = regionSize.x / 2 + 1;
 const int pairCount = pairPitch * (regionSize.y + 2);
 const int pixelCount = 2 * pairCount;
 const int ringCount = 2 * (regionSize.x + 2 + regionSize.y);
-const int fineRingCount = 2 * (finePitch + fineSize.y);
 
 // The region's pixels with one around: light, and 1 where a pixel gives light; depth, 0 where there is none.
 shared uvec2 pixelLights[pixelCount];
 shared float pixelDepths[isEdge ? pixelCount : 1];
 shared float pixelAreas[isEdge ? pixelCount : 1]; // of the surface, relative to one that faces the camera
 shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
+shared uvec2 fineLights[fineCount]; // first two words of level 1's texels as reduced: light and area
 shared uvec2 levelLights[levelTexelCount]; // as blurredLights
-// Of levels 2 … 6, in edge regions of level 1, too: depth, and a raw texel's last word: mass (0 = no surface near) and
-// material.
-const int surfaceStart = isEdge ? 0 : fineCount;
-shared uvec2 levelSurfaces[levelTexelCount - surfaceStart];
+// Of the same texels: depth, and a raw texel's last word: mass (0 = no surface near) and material.
+shared uvec2 levelSurfaces[levelTexelCount];
 // As levelLights and levelSurfaces, of the texels that have a second one (secondBit).
 const int secondCount = levelStart[bankSecondLevels + 1];
 shared uvec2 secondLights[isEdge && secondLevels > 0 ? secondCount : 1];
@@ -53,10 +53,9 @@ bool findRegion(int kind, out ivec2 region) {
     if (gl_NumWorkGroups.y > 1u && entry >= dispatches[kind].count) { // the last row is not full
         return false;
     }
-    int index = int(tileEntries[regionList(kind) + int(entry)]);
-    int width = regionCount().x;
+    uint place = tileEntries[regionList(kind) + int(entry)];
     ivec2 part = ivec2(gl_WorkGroupID.z & 1u, gl_WorkGroupID.z >> 1);
-    region = ivec2(index % width, index / width) * listedSize + part * regionSize;
+    region = ivec2(place & 0xffffu, place >> 16) * listedSize + part * regionSize;
     return true;
 }
 
@@ -75,18 +74,19 @@ int coarseIndex(int index, ivec2 region, out int level) {
     int pitch = levelPitch[2].x;
     int start = 0;
     [[unroll]] for (int next = 3; next <= bankLevels; ++next) {
-        if (index >= levelStart[next] - fineCount) {
+        if (index >= levelStart[next] - levelStart[2]) {
             level = next;
             pitch = levelPitch[next].x;
-            start = levelStart[next] - fineCount;
+            start = levelStart[next] - levelStart[2];
         }
     }
     int row = int((float(index - start) + 0.5) / float(pitch));
     return globalIndex(level, levelFirst(level, region) + ivec2(index - start - row * pitch, row));
 }
 
+// In fineLights; counted from the region's first texel.
 int fineIndex(ivec2 texel) {
-    return (texel.y + 1) * finePitch + texel.x + 1;
+    return (texel.y + 2) * finePitch + texel.x + 2;
 }
 
 // A pixel's place in shared memory, counted from the one up and left of the region's first. For threads of 2x2 px even
@@ -142,7 +142,7 @@ uint storeFetched(ivec2 region, ivec2 place, Fetched fetched) {
     if (hasFlag(flagAlbedo)) {
         light *= albedoBefore(fetched.local + view.areaOffset, material);
     }
-    float area = unpackAreas(fetched.areas)[(fetched.local.x & 1) + 2 * (fetched.local.y & 1)];
+    float area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));
     storePixel(place + 1, light, fetched.depth, area, material);
     return material;
 }
@@ -152,15 +152,14 @@ uvec2 surfaceOf(int index, uvec2 own, uvec2 light) {
     if ((own.y & massBits) != 0u || light == uvec2(0u, signBit)) {
         return own;
     }
-    uvec2 borrowed = borrowedSurfaces[index];
+    uvec2 borrowed = borrowedSurfaces[blurredIndex(index)];
     return uvec2(borrowed.x, borrowed.y << 16 | fullMass);
 }
 
-// Notes whether a level is plain. Smooth regions read level 1 with plain weights, whatever is beside them, so its light
-// loses its sign.
+// Notes whether a level is plain.
 void storeLevelTexel(int place, int level, uvec2 light) {
-    levelLights[place] = uvec2(light.x, light.y & (level == 1 ? ~signBit : ~0u));
-    if (level > 1 && (light.y & signBit) != 0u) {
+    levelLights[place] = light;
+    if ((light.y & signBit) != 0u) {
         atomicOr(roughLevels, 1u << level);
     }
 }
@@ -176,5 +175,5 @@ void storeSurfaces(int place, int index, uvec2 own, uvec2 light) {
         secondSurfaceWords[place] = secondTexels[3 * index + 1];
         secondLights[place] = secondTexels[3 * index + 2];
     }
-    levelSurfaces[place - surfaceStart] = surfaceOf(index, own, light);
+    levelSurfaces[place] = surfaceOf(index, own, light);
 }

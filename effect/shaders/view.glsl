@@ -61,6 +61,30 @@ float distanceAlongRay(ivec2 pixel, float z) {
     return isValidZ(z) && isFinite(along) ? along : 0.0;
 }
 
+// The same from the depths of 2x2 px, row by row: what is linear over the image, or so nearly, is asked once. `first`: the
+// first pixel; `middle`: stretchAt between the four.
+vec4 distancesAlongRays(ivec2 first, vec4 depth, out float middle) {
+    const vec4 x = vec4(0.0, 1.0, 0.0, 1.0);
+    const vec4 y = vec4(0.0, 0.0, 1.0, 1.0);
+    vec2 ray = rayAt(first) + 0.5 * (view.rayX + view.rayY);
+    middle = sqrt(1.0 + dot(ray, ray));
+    vec2 change = vec2(dot(ray, view.rayX), dot(ray, view.rayY)) / middle;
+    vec4 stretch = middle + (x - 0.5) * change.x + (y - 0.5) * change.y;
+    vec4 z = -depth * view.mmPerUnit;
+    if (hasFlag(flagHardwareDepth)) {
+        vec4 row = view.depthRow;
+        vec2 origin = originAt(first);
+        vec4 slope = depth * view.clipW.x - dot(row.xyz, vec3(rayAt(first), 1.0)) - x * dot(row.xy, view.rayX) -
+                     y * dot(row.xy, view.rayY);
+        vec4 bias = dot(row.xy, origin) + row.w + x * dot(row.xy, view.originX) + y * dot(row.xy, view.originY);
+        z = (bias - depth * view.clipW.y) / slope;
+    }
+    vec4 along = -z * stretch;
+    bvec4 drawn = greaterThan(view.clipW.x * z + view.clipW.y, vec4(0.0));
+    bvec4 finite = lessThan(floatBitsToUint(along) & 0x7fffffffu, uvec4(0x7f800000u));
+    return mix(vec4(0.0), along, bvec4(uvec4(drawn) & uvec4(finite)));
+}
+
 vec3 viewPosition(ivec2 pixel, float z) {
     return vec3(rayAt(pixel) * z + originAt(pixel), z);
 }

@@ -279,45 +279,39 @@ BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
     return result;
 }
 
-// Whether one of 2x2 texels of level 1 is empty.
-bool BankTwin::hasHole(int x, int y) const {
+// Whether a 2x2 block of pixels, with those beside it, has a depth step or left something out.
+bool BankTwin::isRough(int blockX, int blockY) const {
+    double longest = 0;
+    double farthest = 0;
+    bool besideHole = false;
+    const auto depthAt = [&](int x, int y) {
+        const RawTexel* pixel = raw_[0].at(x, y);
+        return pixel != nullptr ? pixel->depth : 0;
+    };
     for (int i = 0; i < 4; ++i) {
-        const RawTexel* texel = raw_[1].at(x + i % 2, y + i / 2);
-        if (texel == nullptr || texel->mass <= 0) {
-            return true;
+        const int x = 2 * blockX + i % 2;
+        const int y = 2 * blockY + i / 2;
+        const double depth = depthAt(x, y);
+        farthest = std::max(farthest, depth);
+        besideHole |= depth == 0;
+        for (const double beside : {depthAt(x - 1, y), depthAt(x + 1, y), depthAt(x, y - 1), depthAt(x, y + 1)}) {
+            besideHole |= beside == 0;
+            longest = std::max(longest, std::min(depth, beside) > 0 ? std::abs(depth - beside) : 0);
         }
     }
-    return false;
+    const double limit = besideHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth;
+    return raw_[1].at(blockX, blockY)->dropped || longest > limit * texelWidth(0, farthest);
 }
 
-// The texels of level 1 of a tile's upper or lower half and one more around agree in depth with their neighbours; so do
-// then the coarser ones.
+// No block of a tile's upper or lower half, or beside it, is rough.
 bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
-    constexpr int halo = 1;
     const int width = tileSize / 2;
     const int height = regionHeight / 2;
-    const int firstX = tileX * width - halo;
-    const int firstY = (2 * tileY + half) * height - halo;
-    const int lastX = firstX + width + 2 * halo - 1;
-    const int lastY = firstY + height + 2 * halo - 1;
-    for (int y = firstY; y <= lastY; ++y) {
-        for (int x = firstX; x <= lastX; ++x) {
-            const RawTexel* texel = raw_[1].at(x, y);
-            if (texel == nullptr || texel->mass <= 0) {
-                continue;
-            }
-            const RawTexel* right = x < lastX ? raw_[1].at(x + 1, y) : nullptr;
-            const RawTexel* below = y < lastY ? raw_[1].at(x, y + 1) : nullptr;
-            // The shader asks by blocks of 2x2.
-            const bool besideHole = hasHole(firstX + ((x - firstX) & ~1), firstY + ((y - firstY) & ~1));
-            const double limit = (besideHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth) *
-                                 texelWidth(1, texel->depth);
-            for (const RawTexel* next : {right, below}) {
-                if (next != nullptr && next->mass > 0 && std::abs(next->depth - texel->depth) > limit) {
-                    return false;
-                }
-            }
-            if (texel->dropped) {
+    const int firstX = tileX * width;
+    const int firstY = (2 * tileY + half) * height;
+    for (int y = firstY - 1; y <= firstY + height; ++y) {
+        for (int x = firstX - 1; x <= firstX + width; ++x) {
+            if (raw_[1].at(x, y) != nullptr && isRough(x, y)) {
                 return false;
             }
         }
@@ -338,10 +332,12 @@ void BankTwin::combinePixel(int x, int y, bool smooth) {
     sum.add(identity, scene_.irradiance[index], 1);
     if (smooth) {
         addPixelsOnSlope(sum, weights[1], x, y);
+        addFinestOnSlope(sum, weights[2], x, y);
     } else {
         addPixels(sum, weights[1], x, y);
+        addLevel(sum, weights[2], 1, x, y, {depth, smooth});
     }
-    for (int level = 1; level <= bankLevels; ++level) {
+    for (int level = 2; level <= bankLevels; ++level) {
         addLevel(sum, weights[level + 1], level, x, y, {depth, smooth});
     }
     for (int channel = 0; channel < 3; ++channel) {
@@ -368,15 +364,20 @@ double BankTwin::quadSlope(int x, int y, int dx, int dy) const {
     return pairs > 0 ? sum / pairs : 0;
 }
 
-// As addPixels, with the depths of the slope the quad stands on in place of the taps' own: separable.
-void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
+// How much a tap beside the middle of a 3x3 weighs, x and y, for one of 1 there, on the slope that the pixel's quad
+// stands on.
+std::array<double, 2> BankTwin::slopeFalloffs(int x, int y) const {
     const double width = texelWidth(0, raw_[0].at(x, y)->depth);
     const auto side = [&](double slope) {
-        return 0.5 * falloff(slope * slope / (constants::bankPixelDepthVariance * width * width));
+        return falloff(slope * slope / (constants::bankPixelDepthVariance * width * width));
     };
-    const double sideX = side(quadSlope(x, y, 1, 0));
-    const double sideY = side(quadSlope(x, y, 0, 1));
-    const double total = (1 + 2 * sideX) * (1 + 2 * sideY);
+    return {side(quadSlope(x, y, 1, 0)), side(quadSlope(x, y, 0, 1))};
+}
+
+// As addPixels, with the depths of the slope the quad stands on in place of the taps' own: separable.
+void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
+    const std::array<double, 2> falloffs = slopeFalloffs(x, y);
+    const double total = (1 + falloffs[0]) * (1 + falloffs[1]);
     Rgb light{};
     double mass = 0;
     for (int i = 0; i < 9; ++i) {
@@ -384,7 +385,38 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
         if (tap == nullptr || tap->mass <= 0) {
             continue;
         }
-        const double kernel = (i % 3 == 1 ? 1 : sideX) * (i / 3 == 1 ? 1 : sideY) / total;
+        const double kernel = (i % 3 == 1 ? 1 : 0.5 * falloffs[0]) * (i / 3 == 1 ? 1 : 0.5 * falloffs[1]) / total;
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += kernel * tap->light[channel] / tap->area;
+        }
+        mass += kernel;
+    }
+    sum.add(weight, light, mass);
+}
+
+// The same for level 1: the 3x3 mean on the slope, read bilinearly.
+void BankTwin::addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
+    const std::array<double, 2> falloffs = slopeFalloffs(x, y);
+    const auto taps = [](double wide, int odd) { // from two texels before the pixel's own
+        const double side = std::pow(wide, 1.5) / (1 + 2 * std::pow(wide, 1.5));
+        const double mean[] = {side, 1 - 2 * side, side};
+        std::array<double, 5> result{};
+        for (int i = 0; i < 3; ++i) {
+            result[i + 1] += 0.75 * mean[i];
+            result[i + 2 * odd] += 0.25 * mean[i];
+        }
+        return result;
+    };
+    const std::array<double, 5> tapsX = taps(falloffs[0], x % 2);
+    const std::array<double, 5> tapsY = taps(falloffs[1], y % 2);
+    Rgb light{};
+    double mass = 0;
+    for (int i = 0; i < 25; ++i) {
+        const RawTexel* tap = raw_[1].at(x / 2 + i % 5 - 2, y / 2 + i / 5 - 2);
+        if (tap == nullptr || tap->mass <= 0) {
+            continue;
+        }
+        const double kernel = tapsX[i % 5] * tapsY[i / 5] * massOf(tap->area);
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += kernel * tap->light[channel] / tap->area;
         }
@@ -423,7 +455,6 @@ void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) cons
 void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const {
     const TwinLevel<BlurredTexel>& blurred = blurred_[level];
     const double width = texelWidth(level, from.depth);
-    const bool plain = from.smooth && level == 1;
     const double depthVariance =
         settings_.secondSurfaces ? constants::bankSurfacesLevelDepthVariance : constants::bankLevelDepthVariance;
     const double awayVariance =
@@ -443,9 +474,9 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         const int tapY = std::clamp(firstY + i / 2 % 2, 0, blurred.height - 1);
         const BlurredTexel& tap = *(i < 4 ? blurred : blurredSeconds_[level]).at(tapX, tapY);
         double tapWeight = (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 % 2 == 1 ? fractionY : 1 - fractionY);
-        const double difference = plain ? 0 : tap.depth - from.depth;
+        const double difference = tap.depth - from.depth;
         const double q = difference * difference / (depthVariance * width * width);
-        tapWeight *= plain || tap.depth > 0 ? falloff(q) : 0;
+        tapWeight *= tap.depth > 0 ? falloff(q) : 0;
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += tapWeight * tap.light[channel];
         }

@@ -57,7 +57,7 @@ private:
     /// What a pixel reads the levels from.
     struct Standpoint {
         double depth; ///< mm, which depth weights are taken from
-        bool smooth;  ///< the finest level has no depth weights
+        bool smooth;  ///< second surfaces are not read
     };
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
@@ -66,10 +66,12 @@ private:
     void blurLevel(int level);
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
-    bool hasHole(int x, int y) const;
+    bool isRough(int blockX, int blockY) const;
     bool isSmooth(int tileX, int tileY, int half) const;
     void combinePixel(int x, int y, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
+    std::array<double, 2> slopeFalloffs(int x, int y) const;
+    void addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
     double stretch(int x, int y) const;
