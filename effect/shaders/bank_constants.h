@@ -40,12 +40,13 @@ const float bankPixelDepthVariance = 2.0f;
 const float bankLargestArea = 8.0f;
 // Sums of weights are not divided by less than this: where every tap is on another surface the light fades out.
 const float bankLeastWeight = 1e-6f;
-// A region of 32x16 px whose level 1, with one texel around, changes by less than this many texel widths in depth from
-// texel to texel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines").
+// A region of 32x16 px whose depth, with one 2x2 block around, changes by less than this many pixel widths from pixel to
+// pixel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines"). A texel of the
+// blurred levels is plain where the same holds from texel to texel.
 // 3 is a slope of 72 degrees. With 1.2, 50 degrees, tilted sheets take 100 µs more (1920x1080, NVIDIA H200), and no case
 // changes by more than 0.3 dB.
 const float bankSmoothDepth = 3.0f;
-// The same beside an empty texel, where surfaces curve away. With 3: −1 to −5 dB on the models.
+// The same beside a pixel that is on no surface, where surfaces curve away. With 3: −1 to −5 dB on the models.
 const float bankSmoothHoleDepth = 0.5f;
 // A pixel's own light weighs at least this: where hardly any of the other kernels is on its surface, its light stays.
 // Without, such a pixel can be black.
