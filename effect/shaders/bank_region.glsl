@@ -35,7 +35,8 @@ shared uvec2 pixelLights[pixelCount];
 shared float pixelDepths[isEdge ? pixelCount : 1];
 shared float pixelAreas[isEdge ? pixelCount : 1]; // of the surface, relative to one that faces the camera
 shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
-shared uvec2 fineLights[fineCount]; // first two words of level 1's texels as reduced: light and area
+// Of level 1's texels as reduced: their first two words, light and area; in smooth regions light times mass, and mass.
+shared uvec2 fineLights[fineCount];
 shared uvec2 levelLights[levelTexelCount]; // as blurredLights
 // Of the same texels: depth, and a raw texel's last word: mass (0 = no surface near) and material.
 shared uvec2 levelSurfaces[levelTexelCount];
