@@ -6,29 +6,13 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// Of level 1's texels as reduced, beside fineLights.
-shared uvec2 fineSurfaces[fineCount]; // the other two words
+// Of level 1's texels as reduced, beside fineLights: the other two words, and their second surfaces where they have one.
+shared uvec2 fineSurfaces[fineCount];
 shared uvec4 fineSeconds[secondLevels > 0 ? fineCount : 1];
 
-const int pitch = finePitch;
-
-RawTexel texelAt(int index) {
-    return unpackRaw(uvec4(fineLights[index], fineSurfaces[index]));
-}
-
-float depthAt(int index) {
-    return uintBitsToFloat(fineSurfaces[index].x);
-}
-
-bool hasSecondAt(int index) {
+bool hasFineSecond(int index) {
     return secondLevels > 0 && (fineSurfaces[index].y & secondBit) != 0u;
 }
-
-RawTexel secondAt(int index) {
-    return unpackRaw(fineSeconds[index]);
-}
-
-#include "bank_kernel.glsl"
 
 // Fetches everything before anything is used, so that the fetches overlap: one half of the threads the pixels around, the
 // other the coarser levels. Returns the material of the thread's pixel.
@@ -55,13 +39,12 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
     if (thread < fineCount) {
         fineLights[fine] = words.xy;
         fineSurfaces[fine] = words.zw;
-        if (hasSecondAt(fine)) {
+        if (hasFineSecond(fine)) {
             int second = 3 * texelIndex(1, fineTexel);
             fineSeconds[fine] = uvec4(secondTexels[second], secondTexels[second + 1]);
         }
     }
     if (isCoarse && thread % (threads / 2) < coarseCount) {
-        place += levelStart[2];
         storeLevelTexel(place, level, light);
         storeSurfaces(place, index, surface, light);
     }
@@ -69,40 +52,6 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
         storeFetched(region, ring, ringPixel);
     }
     return storeFetched(region, local, own);
-}
-
-// Level 1's 3x3 mean at a texel of the region, or around it.
-BlurredTexel blurFine(int center, BlurredTexel surface) {
-    float width = texelWidth(1, surface.depth);
-    Sums sums = Sums(vec3(0.0), 0.0);
-    [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
-        [[unroll]] for (int x = -1; x <= 1; ++x) {
-            addTaps(sums, center + x + y * pitch, surface, 1.0 / 9.0, width);
-        }
-    }
-    divide(surface, sums);
-    return surface;
-}
-
-// Blurs level 1, a texel a thread; the other half of the threads takes second surfaces.
-void blurFineLevel(int thread) {
-    int place = thread % (threads / 2);
-    if (place >= levelStart[2]) {
-        return;
-    }
-    ivec2 texel = ivec2(place % levelPitch[1].x, place / levelPitch[1].x);
-    int center = fineIndex(texel - 1);
-    if (thread < threads / 2) {
-        BlurredTexel blurred = blurFine(center, findSurface(1, center));
-        levelLights[place] = packBlurred(blurred);
-        uvec2 own = fineSurfaces[center];
-        bool borrows = (own.y & massBits) == 0u && blurred.present;
-        levelSurfaces[place] = borrows ? uvec2(floatBitsToUint(blurred.depth), blurred.material << 16 | fullMass) : own;
-    } else if (hasSecondAt(center)) {
-        BlurredTexel blurred = blurFine(center, findSecond(center));
-        secondLights[place] = packBlurred(blurred);
-        secondSurfaceWords[place] = fineSeconds[center].zw;
-    }
 }
 
 // Fourth roots of ½ and ¼, the weights along an axis of the middle of the full-resolution 3x3 and of what is beside it.
@@ -127,6 +76,39 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 middle, uint material, float de
         float base = max(0.0, root - difference * difference * (root * scale));
         base *= base;
         lightAndArea += base * base * pixelAreas[place] * vec4(light.rgb, 1.0);
+    }
+    float mass = massOf(lightAndArea.w);
+    add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
+}
+
+// Of a pixel in the second row or column of a quad the 3x3 mean and the bilinear reading of it, ¼ and ¾, are this kernel
+// along an axis; of one in the first it is the other way round.
+const float finestTaps[4] = float[](1.0 / 4.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 12.0);
+
+void addFinestTap(inout vec4 lightAndArea, RawTexel tap, float kernel, float depth, float scale, uint material) {
+    float difference = tap.depth - depth;
+    float weight = kernel * falloff(difference * difference * scale);
+    bool taken = tap.mass > 0.0 && givesLight(tap.material, material);
+    lightAndArea += taken ? weight * vec4(tap.light, tap.area) : vec4(0.0);
+}
+
+// Level 1, as the pixel sees it.
+void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint material) {
+    float width = texelWidth(1, depth);
+    float scale = 1.0 / (bankPixelDepthVariance * width * width);
+    ivec2 odd = local & 1;
+    int first = fineIndex(local / 2 - 2 + odd);
+    vec4 lightAndArea = vec4(0.0);
+    [[dont_unroll]] for (int y = 0; y < 4; ++y) {
+        [[unroll]] for (int x = 0; x < 4; ++x) {
+            float kernel = finestTaps[odd.y == 1 ? y : 3 - y] * finestTaps[odd.x == 1 ? x : 3 - x];
+            int index = first + y * finePitch + x;
+            RawTexel tap = unpackRaw(uvec4(fineLights[index], fineSurfaces[index]));
+            addFinestTap(lightAndArea, tap, kernel, depth, scale, material);
+            if (hasFineSecond(index)) {
+                addFinestTap(lightAndArea, unpackRaw(fineSeconds[index]), kernel, depth, scale, material);
+            }
+        }
     }
     float mass = massOf(lightAndArea.w);
     add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
@@ -165,7 +147,7 @@ void addPlainLevel(inout Sum sum, vec3 weight, int level, Corner corner) {
     add(sum, weight, mix(upper, lower, corner.fraction.y));
 }
 
-const uint levelKernels = ~3u; // of usedKernels: all but the identity and the full-resolution 3x3
+const uint levelKernels = ~7u; // of usedKernels: those of the levels from 2 on
 
 void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 pixel, float depth, uint material) {
     [[dont_unroll]] for (uint left = usedKernels(mixture) & levelKernels; left != 0u; left &= left - 1u) {
@@ -188,12 +170,10 @@ void main() {
     int thread = int(gl_LocalInvocationIndex);
     ivec2 local = ivec2(gl_LocalInvocationID.xy);
     if (thread == 0) {
-        roughLevels = 2u;
+        roughLevels = 0u;
     }
     barrier();
     uint material = loadRegion(region, thread, local);
-    barrier();
-    blurFineLevel(thread);
     barrier();
     ivec2 place = local + 1;
     float depth = pixelDepths[pixelPlace(place)]; // 0 where there is no material
@@ -202,6 +182,7 @@ void main() {
         Sum sums[1] = Sum[](noSum);
         addIdentity(sums, mixture, place);
         addPixels(sums[0], kernelWeight(mixture, 1), place, material, depth);
+        addFinestLevel(sums[0], kernelWeight(mixture, 2), local, depth, material);
         addLevels(sums[0], mixture, region, region + local, depth, material);
         storeGroup(region + local, place, bvec4(true), material, mixture.strength, sums);
     } else {

@@ -15,15 +15,13 @@ const ivec2 fineSize = regionSize / 2;           // texels of level 1
 // Level 1 is loaded as reduced, with two texels around, for its 3x3 mean and to read that bilinearly.
 const int finePitch = fineSize.x + 4;
 const int fineCount = finePitch * (fineSize.y + 4);
-// The texels of a level that the region's pixels read once it is blurred: from one before its first on, at most this many.
-// Only edge regions keep level 1's.
+// The texels of a blurred level that the region's pixels read: from one before its first on, at most this many.
 const ivec2 levelPitch[bankLevels + 1] =
-    isEdge ? ivec2[](ivec2(0), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3), ivec2(3, 3))
+    isEdge ? ivec2[](ivec2(0), ivec2(0), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3), ivec2(3, 3))
            : ivec2[](ivec2(0), ivec2(0), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3));
 const int levelStart[bankLevels + 2] =
-    isEdge ? int[](0, 0, 60, 84, 96, 105, 114, 123) : int[](0, 0, 0, 60, 84, 96, 105, 114);
-const int coarseCount = levelStart[bankLevels + 1] - levelStart[2];
-const int levelTexelCount = levelStart[bankLevels + 1];
+    isEdge ? int[](0, 0, 0, 24, 36, 45, 54, 63) : int[](0, 0, 0, 60, 84, 96, 105, 114);
+const int coarseCount = levelStart[bankLevels + 1];
 
 const int pairPitch = regionSize.x / 2 + 1;
 const int pairCount = pairPitch * (regionSize.y + 2);
@@ -37,15 +35,14 @@ shared float pixelAreas[isEdge ? pixelCount : 1]; // of the surface, relative to
 shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
 // Of level 1's texels as reduced: their first two words, light and area; in smooth regions light times mass, and mass.
 shared uvec2 fineLights[fineCount];
-shared uvec2 levelLights[levelTexelCount]; // as blurredLights
+shared uvec2 levelLights[coarseCount]; // as blurredLights
 // Of the same texels: depth, and a raw texel's last word: mass (0 = no surface near) and material.
-shared uvec2 levelSurfaces[levelTexelCount];
+shared uvec2 levelSurfaces[coarseCount];
 // As levelLights and levelSurfaces, of the texels that have a second one (secondBit).
 const int secondCount = levelStart[bankSecondLevels + 1];
 shared uvec2 secondLights[isEdge && secondLevels > 0 ? secondCount : 1];
 shared uvec2 secondSurfaceWords[isEdge && secondLevels > 0 ? secondCount : 1];
-// Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do. In
-// edge regions level 1 always has them.
+// Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
 // The region that this workgroup combines, in px of the render area; false where there is none.
@@ -75,10 +72,10 @@ int coarseIndex(int index, ivec2 region, out int level) {
     int pitch = levelPitch[2].x;
     int start = 0;
     [[unroll]] for (int next = 3; next <= bankLevels; ++next) {
-        if (index >= levelStart[next] - levelStart[2]) {
+        if (index >= levelStart[next]) {
             level = next;
             pitch = levelPitch[next].x;
-            start = levelStart[next] - levelStart[2];
+            start = levelStart[next];
         }
     }
     int row = int((float(index - start) + 0.5) / float(pitch));

@@ -108,6 +108,14 @@ struct BankTwin::Accumulator {
             mass[channel] += weight[channel] * kernelMass;
         }
     }
+
+    // Light and area, summed with depth weights over the surface within a kernel's reach.
+    void addSurface(const Rgb& weight, Rgb kernelLight, double area) {
+        for (double& value : kernelLight) {
+            value *= massOf(area) / std::max<double>(area, constants::bankLeastWeight);
+        }
+        add(weight, kernelLight, massOf(area));
+    }
 };
 
 BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : scene_(scene), settings_(settings) {
@@ -134,7 +142,7 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
     for (int level = 1; level <= bankLevels; ++level) {
         reduceLevel(level);
     }
-    for (int level = 1; level <= bankLevels; ++level) {
+    for (int level = 2; level <= bankLevels; ++level) {
         blurLevel(level);
     }
     for (int tileY = 0; tileY < tilesY_; ++tileY) {
@@ -249,15 +257,13 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
 
 // A texel's kernel where it stands on a surface at this depth.
 BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
-    constexpr double mean[] = {0, 1 / 3.0, 1 / 3.0, 1 / 3.0, 0};
     constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
-    const double* blur = level == 1 ? mean : binomial;
     const double width = texelWidth(level, depth);
     Rgb light{};
     double area = 0;
     for (int i = 0; i < 50; ++i) {
         const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
-        const double kernel = blur[i % 5] * blur[i / 5 % 5];
+        const double kernel = binomial[i % 5] * binomial[i / 5 % 5];
         const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2);
         if (tap == nullptr || tap->mass <= 0) {
             continue;
@@ -335,7 +341,7 @@ void BankTwin::combinePixel(int x, int y, bool smooth) {
         addFinestOnSlope(sum, weights[2], x, y);
     } else {
         addPixels(sum, weights[1], x, y);
-        addLevel(sum, weights[2], 1, x, y, {depth, smooth});
+        addFinest(sum, weights[2], x, y);
     }
     for (int level = 2; level <= bankLevels; ++level) {
         addLevel(sum, weights[level + 1], level, x, y, {depth, smooth});
@@ -394,21 +400,28 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
     sum.add(weight, light, mass);
 }
 
-// The same for level 1: the 3x3 mean on the slope, read bilinearly.
+namespace {
+
+// The kernel along an axis that level 1's 3x3 mean and the bilinear reading of it are together, from two texels before
+// the pixel's own on. `side`: share of the mean's taps beside its middle.
+std::array<double, 5> finestTaps(double side, int odd) {
+    const double mean[] = {side, 1 - 2 * side, side};
+    std::array<double, 5> result{};
+    for (int i = 0; i < 3; ++i) {
+        result[i + 1] += 0.75 * mean[i];
+        result[i + 2 * odd] += 0.25 * mean[i];
+    }
+    return result;
+}
+
+} // namespace
+
+// The same for level 1.
 void BankTwin::addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
     const std::array<double, 2> falloffs = slopeFalloffs(x, y);
-    const auto taps = [](double wide, int odd) { // from two texels before the pixel's own
-        const double side = std::pow(wide, 1.5) / (1 + 2 * std::pow(wide, 1.5));
-        const double mean[] = {side, 1 - 2 * side, side};
-        std::array<double, 5> result{};
-        for (int i = 0; i < 3; ++i) {
-            result[i + 1] += 0.75 * mean[i];
-            result[i + 2 * odd] += 0.25 * mean[i];
-        }
-        return result;
-    };
-    const std::array<double, 5> tapsX = taps(falloffs[0], x % 2);
-    const std::array<double, 5> tapsY = taps(falloffs[1], y % 2);
+    const auto side = [](double wide) { return std::pow(wide, 1.5) / (1 + 2 * std::pow(wide, 1.5)); };
+    const std::array<double, 5> tapsX = finestTaps(side(falloffs[0]), x % 2);
+    const std::array<double, 5> tapsY = finestTaps(side(falloffs[1]), y % 2);
     Rgb light{};
     double mass = 0;
     for (int i = 0; i < 25; ++i) {
@@ -423,6 +436,31 @@ void BankTwin::addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
         mass += kernel;
     }
     sum.add(weight, light, mass);
+}
+
+// Level 1 as a pixel of an edge region sees it.
+void BankTwin::addFinest(Accumulator& sum, const Rgb& weight, int x, int y) const {
+    const double depth = raw_[0].at(x, y)->depth;
+    const double width = texelWidth(1, depth);
+    const std::array<double, 5> tapsX = finestTaps(1 / 3.0, x % 2);
+    const std::array<double, 5> tapsY = finestTaps(1 / 3.0, y % 2);
+    Rgb light{};
+    double area = 0;
+    for (int i = 0; i < 50; ++i) {
+        const TwinLevel<RawTexel>& raw = i < 25 ? raw_[1] : rawSeconds_[1];
+        const RawTexel* tap = raw.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2);
+        if (tap == nullptr || tap->mass <= 0) {
+            continue;
+        }
+        const double difference = tap->depth - depth;
+        const double kernel = tapsX[i % 5] * tapsY[i / 5 % 5] *
+                              falloff(difference * difference / (constants::bankPixelDepthVariance * width * width));
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += kernel * tap->light[channel];
+        }
+        area += kernel * tap->area;
+    }
+    sum.addSurface(weight, light, area);
 }
 
 void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
@@ -445,11 +483,7 @@ void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) cons
         }
         area += tapWeight * tap->area;
     }
-    const double mass = massOf(area);
-    for (double& value : light) {
-        value *= mass / std::max<double>(area, constants::bankLeastWeight);
-    }
-    sum.add(weight, light, mass);
+    sum.addSurface(weight, light, area);
 }
 
 void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const {

@@ -45,7 +45,7 @@ public:
 
     /// Pass A. [level 1 … bankLevels]
     const TwinLevel<RawTexel>& raw(int level) const { return raw_[level]; }
-    /// Pass B.
+    /// Pass B. [level 2 … bankLevels]
     const TwinLevel<BlurredTexel>& blurred(int level) const { return blurred_[level]; }
     /// Pass C: the scattered irradiance of every pixel.
     const std::vector<Rgb>& result() const { return result_; }
@@ -71,6 +71,7 @@ private:
     void combinePixel(int x, int y, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
     std::array<double, 2> slopeFalloffs(int x, int y) const;
+    void addFinest(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
     void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
