@@ -41,8 +41,12 @@ constexpr std::uint32_t blurThreads = blurBlock.width * blurBlock.height;
 constexpr std::uint32_t coarsestBlurRows = 2;
 constexpr std::uint32_t cellTexels = 341; // levels 1 … 5
 
+std::uint32_t ratioUp(std::uint32_t value, std::uint32_t divisor) {
+    return (value + divisor - 1) / divisor;
+}
+
 VkExtent2D cellCount(VkExtent2D area) {
-    return {(area.width + cellSize - 1) / cellSize, (area.height + cellSize - 1) / cellSize};
+    return {ratioUp(area.width, cellSize), ratioUp(area.height, cellSize)};
 }
 
 VkExtent2D levelExtent(VkExtent2D area, int level) {
@@ -55,10 +59,6 @@ VkExtent2D levelExtent(VkExtent2D area, int level) {
 VkExtent3D reduceGrid(VkExtent2D area) {
     const VkExtent2D cells = cellCount(area);
     return {cells.width * (cellSize / tileSize), cells.height * (cellSize / tileSize), 1};
-}
-
-std::uint32_t ratioUp(std::uint32_t value, std::uint32_t divisor) {
-    return (value + divisor - 1) / divisor;
 }
 
 // Workgroups that blur a level or, in place of level 1, list the regions.
@@ -78,7 +78,7 @@ VkExtent3D blurGrid(VkExtent2D area) {
     for (int level = 1; level <= bankLevels; ++level) {
         count += blockCount(area, level);
     }
-    return {std::min<std::uint32_t>(count, bankDispatchWidth), (count + bankDispatchWidth - 1) / bankDispatchWidth, 1};
+    return {std::min<std::uint32_t>(count, bankDispatchWidth), ratioUp(count, bankDispatchWidth), 1};
 }
 
 // Texels of the whole pyramid.

@@ -25,7 +25,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) buffer BankSeconds {
     // Three of each texel of levels 1 … secondLevels, only where it has a second surface (secondBit): the words of
-    // packRaw; after the blur, packBlurred.
+    // packRaw; from level 2 on, after the blur, packBlurred.
     uvec2 secondTexels[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
@@ -195,12 +195,6 @@ ivec2 ringPosition(int index, ivec2 size) {
 // longer than the view's middle one. Level 0 are the pixels.
 float texelWidth(int level, float depth) {
     return float(1 << level) * parameters.pixelWidth * clipW(-depth);
-}
-
-// Pixels a millimetre takes at a depth along the view direction, in bins of the weight tables. A surface across the view
-// direction is seen at the same scale everywhere.
-float scaleAt(float viewDepth) {
-    return -float(bankBinsPerOctave) * log2(texelWidth(0, viewDepth));
 }
 
 // Depth step from a pixel to the next along one axis, in pixel widths, from the depths on either side (0 = none): their

@@ -58,6 +58,12 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
 const float middleRoot = 0.84089642;
 const float besideRoot = 0.70710678;
 
+// Adds a kernel of light and area that were summed with depth weights over the surface within its reach.
+void addSurface(inout Sum sum, vec3 weight, vec4 lightAndArea) {
+    float mass = massOf(lightAndArea.w);
+    add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
+}
+
 // The full-resolution 3x3.
 void addPixels(inout Sum sum, vec3 weight, ivec2 middle, uint material, float depth) {
     float width = texelWidth(0, depth);
@@ -77,8 +83,7 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 middle, uint material, float de
         base *= base;
         lightAndArea += base * base * pixelAreas[place] * vec4(light.rgb, 1.0);
     }
-    float mass = massOf(lightAndArea.w);
-    add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
+    addSurface(sum, weight, lightAndArea);
 }
 
 // Of a pixel in the second row or column of a quad the 3x3 mean and the bilinear reading of it, ¼ and ¾, are this kernel
@@ -110,8 +115,7 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
             }
         }
     }
-    float mass = massOf(lightAndArea.w);
-    add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
+    addSurface(sum, weight, lightAndArea);
 }
 
 void addTap(inout Taps taps, float share, uvec2 light, uvec2 surface, float depth, float scale, uint material) {

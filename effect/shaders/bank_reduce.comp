@@ -25,7 +25,6 @@ struct Block {
     uint material[4];
     float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
     vec3 light[4];  // irradiance; from decodeBlock on as it enters
-    float stretch;  // stretchAt in the middle, from decodeBlock on
 };
 
 // One of the pixels around the tile.
@@ -86,7 +85,7 @@ float receivingDepth(uint material, ivec2 pixel, float depth) {
 
 void decodeBlock(inout Block block, ivec2 first) {
     vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
-    vec4 along = distancesAlongRays(first + view.areaOffset, depth, block.stretch);
+    vec4 along = distancesAlongRays(first + view.areaOffset, depth);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         block.depth[i] = block.material[i] != 0u ? along[i] : 0.0;
     }
@@ -302,7 +301,8 @@ void addTexel(inout PlainSum sum, uvec4 words) {
 
 uvec4 storeMean(int level, ivec2 texel, PlainSum sum, float count, uint lastWord) {
     vec3 light = sum.lightAndArea.rgb / sum.lightAndArea.a;
-    uvec4 words = uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, sum.lightAndArea.a / count)), floatBitsToUint(sum.depth / count), lastWord);
+    uvec4 words = uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, sum.lightAndArea.a / count)),
+                        floatBitsToUint(sum.depth / count), lastWord);
     rawTexels[texelIndex(level, texel)] = words;
     return words;
 }

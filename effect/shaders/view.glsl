@@ -62,12 +62,12 @@ float distanceAlongRay(ivec2 pixel, float z) {
 }
 
 // The same from the depths of 2x2 px, row by row: what is linear over the image, or so nearly, is asked once. `first`: the
-// first pixel; `middle`: stretchAt between the four.
-vec4 distancesAlongRays(ivec2 first, vec4 depth, out float middle) {
+// first pixel.
+vec4 distancesAlongRays(ivec2 first, vec4 depth) {
     const vec4 x = vec4(0.0, 1.0, 0.0, 1.0);
     const vec4 y = vec4(0.0, 0.0, 1.0, 1.0);
     vec2 ray = rayAt(first) + 0.5 * (view.rayX + view.rayY);
-    middle = sqrt(1.0 + dot(ray, ray));
+    float middle = sqrt(1.0 + dot(ray, ray)); // stretchAt between the four
     vec2 change = vec2(dot(ray, view.rayX), dot(ray, view.rayY)) / middle;
     vec4 stretch = middle + (x - 0.5) * change.x + (y - 0.5) * change.y;
     vec4 z = -depth * view.mmPerUnit;

@@ -223,30 +223,13 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
 BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
     constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
     const double width = texelWidth(level, depth);
-    Rgb light{};
-    double area = 0;
+    SurfaceSum sum;
     for (int i = 0; i < 50; ++i) {
         const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
-        const double kernel = binomial[i % 5] * binomial[i / 5 % 5];
-        const RawTexel* tap = raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2);
-        if (tap == nullptr || tap->mass <= 0) {
-            continue;
-        }
-        const double difference = tap->depth - depth;
-        const double weight =
-            kernel * falloff(difference * difference / (constants::bankBlurDepthVariance * width * width));
-        for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += weight * tap->light[channel];
-        }
-        area += weight * tap->area;
+        sum.add(raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth,
+                constants::bankBlurDepthVariance * width * width);
     }
-    BlurredTexel result;
-    result.depth = depth;
-    result.mass = massOf(area);
-    for (int channel = 0; channel < 3; ++channel) {
-        result.light[channel] = light[channel] / std::max<double>(area, constants::bankLeastWeight) * result.mass;
-    }
-    return result;
+    return {sum.lightOfMass(), sum.mass(), depth};
 }
 
 // Whether a 2x2 block of pixels, with those beside it, has a depth step or left something out.

@@ -31,13 +31,7 @@ struct BankTwin::Accumulator {
         }
     }
 
-    // Light and area, summed with depth weights over the surface within a kernel's reach.
-    void addSurface(const Rgb& weight, Rgb kernelLight, double area) {
-        for (double& value : kernelLight) {
-            value *= massOf(area) / std::max<double>(area, constants::bankLeastWeight);
-        }
-        add(weight, kernelLight, massOf(area));
-    }
+    void add(const Rgb& weight, const SurfaceSum& surface) { add(weight, surface.lightOfMass(), surface.mass()); }
 };
 
 // In smooth regions the pixels of a 2x2 quad share its depth for their weights and for their texels' depth weights.
@@ -143,46 +137,25 @@ void BankTwin::addFinest(Accumulator& sum, const Rgb& weight, int x, int y) cons
     const double width = texelWidth(1, depth);
     const std::array<double, 5> tapsX = finestTaps(1 / 3.0, x % 2);
     const std::array<double, 5> tapsY = finestTaps(1 / 3.0, y % 2);
-    Rgb light{};
-    double area = 0;
+    SurfaceSum surface;
     for (int i = 0; i < 50; ++i) {
         const TwinLevel<RawTexel>& raw = i < 25 ? raw_[1] : rawSeconds_[1];
-        const RawTexel* tap = raw.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2);
-        if (tap == nullptr || tap->mass <= 0) {
-            continue;
-        }
-        const double difference = tap->depth - depth;
-        const double kernel = tapsX[i % 5] * tapsY[i / 5 % 5] *
-                              falloff(difference * difference / (constants::bankPixelDepthVariance * width * width));
-        for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += kernel * tap->light[channel];
-        }
-        area += kernel * tap->area;
+        surface.add(raw.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2), tapsX[i % 5] * tapsY[i / 5 % 5], depth,
+                    constants::bankPixelDepthVariance * width * width);
     }
-    sum.addSurface(weight, light, area);
+    sum.add(weight, surface);
 }
 
 void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
     constexpr double binomial[] = {0.25, 0.5, 0.25};
-    double area = 0;
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
-    Rgb light{};
+    SurfaceSum surface;
     for (int i = 0; i < 9; ++i) {
-        const double kernel = binomial[i % 3] * binomial[i / 3];
-        const RawTexel* tap = raw_[0].at(x + i % 3 - 1, y + i / 3 - 1);
-        if (tap == nullptr || tap->mass <= 0) {
-            continue;
-        }
-        const double difference = tap->depth - depth;
-        const double tapWeight =
-            kernel * falloff(difference * difference / (constants::bankPixelDepthVariance * width * width));
-        for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += tapWeight * tap->light[channel];
-        }
-        area += tapWeight * tap->area;
+        surface.add(raw_[0].at(x + i % 3 - 1, y + i / 3 - 1), binomial[i % 3] * binomial[i / 3], depth,
+                    constants::bankPixelDepthVariance * width * width);
     }
-    sum.addSurface(weight, light, area);
+    sum.add(weight, surface);
 }
 
 void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const {

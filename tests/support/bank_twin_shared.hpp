@@ -1,7 +1,7 @@
 // What both halves of the bank's twin share with its shaders.
 #pragma once
 
-#include "nacre/bank.hpp"
+#include "tests/support/bank_twin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,5 +25,36 @@ inline double falloff(double q) {
 inline double massOf(double area) {
     return std::min(area, 1.0);
 }
+
+/// Light and area of the surface within a kernel's reach.
+struct SurfaceSum {
+    Rgb light{};
+    double area = 0;
+
+    /// Adds a tap, by the kernel's weight and g(Δz² / variance) of its depth from `depth` [mm]. Null and empty ones are
+    /// missing.
+    void add(const RawTexel* tap, double kernel, double depth, double variance) {
+        if (tap == nullptr || tap->mass <= 0) {
+            return;
+        }
+        const double difference = tap->depth - depth;
+        const double weight = kernel * falloff(difference * difference / variance);
+        for (int channel = 0; channel < 3; ++channel) {
+            light[channel] += weight * tap->light[channel];
+        }
+        area += weight * tap->area;
+    }
+
+    double mass() const { return massOf(area); }
+
+    /// Mean irradiance · mass.
+    Rgb lightOfMass() const {
+        Rgb result = light;
+        for (double& value : result) {
+            value = value / std::max<double>(area, constants::bankLeastWeight) * mass();
+        }
+        return result;
+    }
+};
 
 } // namespace nacre::tests
