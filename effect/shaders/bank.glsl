@@ -2,33 +2,38 @@
 #include "scatter.glsl"
 #include "bank_constants.h"
 
+// How a pass uses the buffers between passes; pass C says that it only reads them.
+#ifndef BANK_ACCESS
+#define BANK_ACCESS
+#endif
+
 layout(constant_id = 0) const bool separateMaterials = false; // some do not exchange light with some others
 
-layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) buffer BankRaw {
+layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) BANK_ACCESS buffer BankRaw {
     uvec4 rawTexels[]; // levels 1 … 6
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) buffer BankBlurred {
+layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) BANK_ACCESS buffer BankBlurred {
     uvec2 blurredLights[]; // levels 2 … 6 (blurredIndex): light and mass, with a sign where the texel is not plain
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std430) buffer BankSurfaces {
+layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std430) BANK_ACCESS buffer BankSurfaces {
     // Of the same texels: depth and material that an empty texel's kernel stands on. A raw texel that is not empty has both.
     uvec2 borrowedSurfaces[];
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) buffer BankQuads {
+layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) BANK_ACCESS buffer BankQuads {
     uvec2 quads[]; // 2x2 px each, as level 1 lies: see Quad
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std430) buffer BankMaterials {
+layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std430) BANK_ACCESS buffer BankMaterials {
     uvec2 quadMaterials[]; // as quads: of the four pixels, only where they differ
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) buffer BankAreas {
+layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) BANK_ACCESS buffer BankAreas {
     uint quadAreas[]; // as quads: packAreas of the four pixels
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) buffer BankSeconds {
+layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) BANK_ACCESS buffer BankSeconds {
     // Three of each texel of levels 1 … secondLevels, only where it has a second surface (secondBit): the words of
     // packRaw; from level 2 on, after the blur, packBlurred.
     uvec2 secondTexels[];
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) buffer BankTiles {
+layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) BANK_ACCESS buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
     // Per tile: tileOccupied, tileRough; then the list of smooth regions, then that of edge regions.
     uint tileEntries[];
@@ -104,16 +109,6 @@ struct Quad {
 };
 
 const uint mixedBit = 0x8000u; // the materials are in quadMaterials
-
-void storeQuad(int index, Quad quad) {
-    bool mixed = quad.materials != uvec2((quad.materials.x & 0xffffu) * 0x10001u);
-    uvec2 beside = uvec2(254.0 * quad.beside + 0.5);
-    quads[index] = uvec2(floatBitsToUint(quad.depth),
-                         beside.x | beside.y << 7 | (mixed ? mixedBit : quad.materials.x << 16));
-    if (mixed) {
-        quadMaterials[index] = quad.materials;
-    }
-}
 
 // `words`: quads[index].
 uvec2 materialsOf(uvec2 words, int index) {
@@ -231,6 +226,17 @@ float falloff(float q) {
     float base = max(0.0, 1.0 - 0.25 * q);
     base *= base;
     return base * base;
+}
+
+// The same of a distance's square over that of a width times a variance. `scale`: depthScale, of these two.
+float depthWeight(float distance, float scale) {
+    float base = max(0.0, 1.0 - distance * distance * scale);
+    base *= base;
+    return base * base;
+}
+
+float depthScale(float width, float variance) {
+    return 0.25 / (variance * width * width);
 }
 
 // How much the taps beside the middle of the full-resolution 3x3 weigh, in x and y, on a slope of so many pixel widths a

@@ -1,0 +1,239 @@
+// What a thread of pass A of `bank` makes of its 2x2 px: a texel of level 1. docs/scatter.md. Included by pass A, with the
+// tile's depths and `roughness` in shared memory.
+
+// 2x2 px, row by row.
+struct Block {
+    uint material[4];
+    float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
+    vec3 light[4];  // irradiance; from decodeBlock on as it enters
+};
+
+// One of the pixels around the tile.
+struct RingPixel {
+    ivec2 pixel;
+    int place; // in `depths`
+    uint material;
+    float depth; // as in the image
+};
+
+// A pixel of the image, as near as there is one.
+ivec2 imagePixel(ivec2 local) {
+    return clamp(local, ivec2(0), view.areaExtent - 1) + view.areaOffset;
+}
+
+bool isInExtent(ivec2 local) {
+    return all(greaterThanEqual(local, ivec2(0))) && all(lessThan(local, view.areaExtent));
+}
+
+// The same two for a tile's own pixels, which are not left of the area or above it.
+ivec2 ownPixel(ivec2 local) {
+    return min(local, view.areaExtent - 1) + view.areaOffset;
+}
+
+bool isBeforeEnd(ivec2 local) {
+    return all(lessThan(local, view.areaExtent));
+}
+
+ivec2 offsetOf(int i) {
+    return ivec2(i & 1, i >> 1);
+}
+
+// In `depths`; counted from the tile's first pixel.
+int depthPlace(ivec2 pixel) {
+    return (pixel.y + 1) * pitch + pixel.x + 1;
+}
+
+Block fetchBlock(ivec2 first) {
+    Block block;
+    uint id[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = ownPixel(first + offsetOf(i));
+        id[i] = texelFetch(materialIdImage, pixel, 0).r;
+        block.depth[i] = texelFetch(depthImage, pixel, 0).r;
+        block.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        block.material[i] = isBeforeEnd(first + offsetOf(i)) ? materialOfId(id[i]) : 0u;
+    }
+    return block;
+}
+
+// The pixels around the tile, without its corners: one a thread.
+RingPixel fetchRing(ivec2 tileFirst, int thread) {
+    int along = thread % tileSize;
+    int beyond = (thread / tileSize & 1) == 0 ? -1 : tileSize;
+    ivec2 place = thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
+    ivec2 pixel = imagePixel(tileFirst + place);
+    float depth = texelFetch(depthImage, pixel, 0).r;
+    uint material = isInExtent(tileFirst + place) ? materialAt(pixel) : 0u;
+    return RingPixel(pixel, depthPlace(place), material, depth);
+}
+
+float receivingDepth(uint material, ivec2 pixel, float depth) {
+    return material != 0u ? distanceAlongRay(pixel, viewZ(pixel, depth)) : 0.0;
+}
+
+void decodeBlock(inout Block block, ivec2 first) {
+    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+    vec4 along = distancesAlongRays(first + view.areaOffset, depth);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        block.depth[i] = block.material[i] != 0u ? along[i] : 0.0;
+    }
+    if (hasFlag(flagAlbedo)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            block.light[i] *= albedoBefore(ownPixel(first + offsetOf(i)), block.material[i]);
+        }
+    }
+}
+
+// Depths beside a 2x2 block: left and right of its rows, above and below its columns.
+struct Sides {
+    vec2 left, right, above, below;
+};
+
+Sides sidesOf(int place) {
+    return Sides(vec2(depths[place - 1], depths[place + pitch - 1]), vec2(depths[place + 2], depths[place + pitch + 2]),
+                 vec2(depths[place - pitch], depths[place - pitch + 1]),
+                 vec2(depths[place + 2 * pitch], depths[place + 2 * pitch + 1]));
+}
+
+// A pair of pixels in a row or column, and the pixels before and after it.
+float longestStep(float before, float first, float second, float after) {
+    return max(max(abs(first - before), abs(second - first)), abs(after - second));
+}
+
+// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
+bool isPlain(Block block, Sides sides, float width) {
+    vec2 leastSides = min(min(sides.left, sides.right), min(sides.above, sides.below));
+    float leastOwn = min(min(block.depth[0], block.depth[1]), min(block.depth[2], block.depth[3]));
+    float longest = max(max(longestStep(sides.left.x, block.depth[0], block.depth[1], sides.right.x),
+                            longestStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
+                        max(longestStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
+                            longestStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
+    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= bankPlainStep * width && !separateMaterials;
+}
+
+// Areas of a plain block's pixels: as areaOf, where every depth goes on to both sides.
+vec4 plainAreas(Block block, Sides sides, float width) {
+    vec4 stepX = vec4(block.depth[1] - sides.left.x, sides.right.x - block.depth[0], block.depth[3] - sides.left.y,
+                      sides.right.y - block.depth[2]);
+    vec4 stepY = vec4(block.depth[2] - sides.above.x, block.depth[3] - sides.above.y, sides.below.x - block.depth[0],
+                      sides.below.y - block.depth[1]);
+    return sqrt(1.0 + (stepX * stepX + stepY * stepY) * (0.25 / (width * width)));
+}
+
+vec4 anyAreas(Block block, Sides sides) {
+    return vec4(areaOf(block.depth[0], vec4(sides.left.x, block.depth[1], sides.above.x, block.depth[2])),
+                areaOf(block.depth[1], vec4(block.depth[0], sides.right.x, sides.above.y, block.depth[3])),
+                areaOf(block.depth[2], vec4(sides.left.y, block.depth[3], block.depth[0], sides.below.x)),
+                areaOf(block.depth[3], vec4(block.depth[2], sides.right.y, block.depth[1], sides.below.y)));
+}
+
+// A texel of level 1 with what the combination wants to know of its pixels.
+struct Reduced {
+    RawTexel texel;
+    RawTexel second; // its second surface
+    vec2 slope; // depth steps from pixel to pixel, in pixel widths
+    vec4 areas;
+};
+
+Reduced reducePlain(Block block, Sides sides, float width) {
+    vec4 areas = plainAreas(block, sides, width);
+    vec3 light = areas.x * block.light[0] + areas.y * block.light[1] + areas.z * block.light[2] + areas.w * block.light[3];
+    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+    vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
+    RawTexel texel = RawTexel(0.25 * light, dot(areas, vec4(0.25)), 1.0, dot(depth, vec4(0.25)), block.material[0], false);
+    return Reduced(texel, emptyTexel(), steps * (0.5 / width), areas);
+}
+
+// Which pixels are on the surface that has more of them.
+bvec4 heavierHalf(RawTexel pixels[4]) {
+    vec2 range = depthRange(pixels, noRange);
+    bool isOne = range.y - range.x <= separationAt(1, range.x);
+    bvec4 near = nearerHalf(pixels, range);
+    bvec4 valid;
+    float balance = 0.0;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        valid[i] = pixels[i].mass > 0.0;
+        balance += near[i] ? pixels[i].mass : -pixels[i].mass;
+    }
+    bvec4 far = bvec4(uvec4(valid) & uvec4(not(near)));
+    return isOne ? valid : balance >= 0.0 ? near : far;
+}
+
+// Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
+Reduced reduceAny(Block block, Sides sides) {
+    Reduced result;
+    result.areas = anyAreas(block, sides);
+    RawTexel pixels[4];
+    bool dropped = false;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        bool gives = block.depth[i] > 0.0 && isFinite(block.light[i]);
+        dropped = dropped || (block.material[i] != 0u && !gives);
+        pixels[i] = emptyTexel();
+        result.areas[i] = gives ? result.areas[i] : 1.0;
+        if (gives) {
+            vec3 light = result.areas[i] * block.light[i];
+            pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
+        }
+    }
+    bvec4 kept = bvec4(true);
+    result.second = emptyTexel();
+    if (secondLevels > 0) {
+        kept = heavierHalf(pixels);
+        result.second = mergeTexels(pixels, not(kept));
+    } else if (!isOneSurface(pixels, 1)) {
+        kept = chooseSurface(pixels, 1);
+    }
+    result.texel = mergeTexels(pixels, kept);
+    result.texel.dropped = result.texel.dropped || dropped;
+    vec2 steps = vec2(0.0);
+    vec2 pairs = vec2(0.0);
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        bool pairX = kept[2 * i] && kept[2 * i + 1];
+        bool pairY = kept[i] && kept[i + 2];
+        steps += vec2(pairX ? pixels[2 * i + 1].depth - pixels[2 * i].depth : 0.0,
+                      pairY ? pixels[i + 2].depth - pixels[i].depth : 0.0);
+        pairs += vec2(pairX, pairY);
+    }
+    result.slope = steps / (max(pairs, vec2(1.0)) * texelWidth(0, result.texel.depth));
+    return result;
+}
+
+float surfaceStep(float a, float b) {
+    return min(a, b) > 0.0 ? abs(a - b) : 0.0;
+}
+
+float longestSurfaceStep(float before, float first, float second, float after) {
+    return max(max(surfaceStep(before, first), surfaceStep(first, second)), surfaceStep(second, after));
+}
+
+// Whether a block that is not plain, or a pixel beside it, is no place for plain weights.
+bool isRough(Block block, Sides sides) {
+    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+    float longest = max(max(longestSurfaceStep(sides.left.x, depth.x, depth.y, sides.right.x),
+                            longestSurfaceStep(sides.left.y, depth.z, depth.w, sides.right.y)),
+                        max(longestSurfaceStep(sides.above.x, depth.x, depth.z, sides.below.x),
+                            longestSurfaceStep(sides.above.y, depth.y, depth.w, sides.below.y)));
+    vec4 leastBeside = min(min(vec4(sides.left, sides.right), vec4(sides.above, sides.below)), depth);
+    bool hasHole = min(min(leastBeside.x, leastBeside.y), min(leastBeside.z, leastBeside.w)) == 0.0;
+    float width = texelWidth(0, max(max(depth.x, depth.y), max(depth.z, depth.w)));
+    return longest > (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * width;
+}
+
+Reduced reduceBlock(Block block, int place, ivec2 texel) {
+    Sides sides = sidesOf(place);
+    float width = texelWidth(0, block.depth[0]);
+    Reduced reduced;
+    bool plain = isPlain(block, sides, width);
+    if (plain) {
+        reduced = reducePlain(block, sides, width);
+        plain = isFinite(reduced.texel.light);
+    }
+    if (!plain) {
+        reduced = reduceAny(block, sides);
+        bool rough = reduced.texel.dropped || isRough(block, sides);
+        atomicOr(roughness, notPlain | (rough ? tileRough(texel, side) : 0u));
+    }
+    return reduced;
+}
