@@ -32,6 +32,10 @@ Mixture findMixture(uint material, float depth, ivec2 pixel) {
     return Mixture(first + 1u + bin * bankBinWords, position - float(bin), head.y);
 }
 
+// Bits of usedKernels: level 1, the levels from 2 on.
+const uint finestKernel = 1u << 2;
+const uint levelKernels = ~7u;
+
 // Bits of the kernels that have a weight.
 uint usedKernels(Mixture mixture) {
     return bankTables[mixture.first].w;
@@ -60,16 +64,16 @@ vec3 quotient(Sum sum) {
     return light / max(mass, vec3(1e-20));
 }
 
-// A pixel's light in shared memory, at a place counted as for pixelPlace.
-vec4 lightAt(ivec2 pixel) {
-    return unpackLight(pixelLights[pixelPlace(pixel)]);
+// The light of one of a thread's pixels.
+vec4 ownLight(ivec2 thread, int i) {
+    return unpackLight(pixelLights[ownPlace(thread, ivec2(i & 1, i >> 1))]);
 }
 
-// The identity. `first`: place of the thread's first pixel in shared memory.
-void addIdentity(inout Sum sums[ownPixels], Mixture mixture, ivec2 first) {
+// The identity.
+void addIdentity(inout Sum sums[ownPixels], Mixture mixture, ivec2 thread) {
     vec3 weight = max(kernelWeight(mixture, 0), vec3(bankLeastIdentity));
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-        add(sums[i], weight, lightAt(first + ivec2(i & 1, i >> 1)));
+        add(sums[i], weight, ownLight(thread, i));
     }
 }
 
@@ -77,32 +81,31 @@ void addIdentity(inout Sum sums[ownPixels], Mixture mixture, ivec2 first) {
 struct Corner {
     int place;     // in shared memory, of the texel up and left of the first pixel
     vec2 fraction; // of that pixel, towards the next texels
+    float step;    // from a pixel to the next
 };
 
 Corner levelCorner(int level, ivec2 region, ivec2 local) {
-    ivec2 texel = (local - (1 << (level - 1))) >> level;
-    vec2 fraction = (vec2(local) + 0.5) / float(1 << level) - 0.5 - vec2(texel);
-    ivec2 inRegion = texel - levelFirst(level, region);
-    return Corner(levelStart[level] + inRegion.y * levelPitch[level].x + inRegion.x, fraction);
+    int width = 1 << level;
+    float step = uintBitsToFloat(0x3f800000u - uint(level << 23)); // 1 / width
+    // In px from the middle of levelFirst on.
+    ivec2 beyond = local - width / 2 - ((region - width / 2) & -width);
+    ivec2 texel = beyond >> level;
+    vec2 fraction = (vec2(beyond & (width - 1)) + 0.5) * step;
+    return Corner(levelPlace(level) + texel.y * levelPitch + texel.x, fraction, step);
 }
 
 const float levelDepthVariance = secondLevels > 0 ? bankSurfacesLevelDepthVariance : bankLevelDepthVariance;
 const float levelAwayVariance = secondLevels > 0 ? bankSurfacesLevelAwayVariance : bankLevelAwayVariance;
 
-// 1 / (levelDepthVariance · t²)
+// What scales squared distances of a level for depthWeight.
 float levelScale(int level, float depth) {
-    float width = texelWidth(level, depth);
-    return 1.0 / (levelDepthVariance * width * width);
+    return depthScale(texelWidth(level, depth), levelDepthVariance);
 }
 
-// How much a surface of a level weighs for one that it is `distance` mm behind. `scale`: levelScale.
-float surfaceWeight(uvec2 surface, float distance, float scale, uint material) {
-    bool taken = (surface.y & massBits) != 0u && givesLight(surface.y >> 16, material);
-    return taken ? falloff(distance * distance * scale) : 0.0;
-}
-
-vec4 weightedLight(uvec2 words) {
-    return unpackLight(uvec2(words.x, words.y & ~signBit));
+// Of a level's texel, without the sign.
+vec4 levelLight(uvec2 words) {
+    vec4 light = unpackLight(words);
+    return vec4(light.rgb, abs(light.a));
 }
 
 // Texels of a level, weighted by place and depth, as a surface sees them.
@@ -117,13 +120,13 @@ struct Taps {
 void addTaps(inout Sum sum, vec3 weight, Taps taps, float scale) {
     float normalization = 1.0 / max(taps.total, bankLeastWeight);
     float away = taps.away * normalization;
-    float share = falloff(away * away * scale * (levelDepthVariance / levelAwayVariance));
+    float share = depthWeight(away, scale * (levelDepthVariance / levelAwayVariance));
     add(sum, weight, taps.light * (share * normalization));
 }
 
-// Writes those of the thread's pixels that are members of a group, which share a material. `local`: the first; `place`:
-// of it in shared memory; of the pixels' light there what is not scattered leaves.
-void storeGroup(ivec2 local, ivec2 place, bvec4 members, uint material, float strength, Sum sums[ownPixels]) {
+// Writes those of the thread's pixels that are members of a group, which share a material. `local`: the first. The light
+// that is not scattered is fetched again: kept, it would take registers from everybody.
+void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum sums[ownPixels]) {
     ivec2 first = local + view.areaOffset;
     vec3 leaving[ownPixels];
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
@@ -131,9 +134,11 @@ void storeGroup(ivec2 local, ivec2 place, bvec4 members, uint material, float st
     }
     if (strength < 1.0 || hasFlag(flagStrength)) {
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-            float share = strength * (members[i] ? strengthAt(first + ivec2(i & 1, i >> 1)) : 1.0);
-            vec4 own = lightAt(place + ivec2(i & 1, i >> 1));
-            leaving[i] = mix(own.rgb, leaving[i], own.w > 0.0 ? share : 1.0);
+            if (members[i]) {
+                ivec2 pixel = first + ivec2(i & 1, i >> 1);
+                vec3 entering = enteringLight(pixel, material);
+                leaving[i] = isFinite(entering) ? mix(entering, leaving[i], strength * strengthAt(pixel)) : leaving[i];
+            }
         }
     }
     if (hasFlag(flagAlbedo)) {
@@ -150,7 +155,7 @@ void storeGroup(ivec2 local, ivec2 place, bvec4 members, uint material, float st
 
 // Writes the thread's other pixels. `scattering`: bits of those that have a material.
 void storeRest(ivec2 first, uint scattering) {
-    for (int i = 0; i < ownPixels; ++i) {
+    [[dont_unroll]] for (int i = 0; i < ownPixels; ++i) {
         ivec2 local = first + ivec2(i & 1, i >> 1);
         if ((scattering >> i & 1u) == 0u && all(lessThan(local, view.areaExtent))) {
             writeUnscattered(local + view.areaOffset);

@@ -13,6 +13,7 @@ const bool isEdge = false;
 // What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is.
 #ifdef HALF_FLOATS
 #define Real float16_t
+#define Real2 f16vec2
 #define Light f16vec4
 Light storedLight(uvec2 words) {
     return Light(unpackFloat2x16(words.x), unpackFloat2x16(words.y));
@@ -22,6 +23,7 @@ uvec2 packLight(Light light) {
 }
 #else
 #define Real float
+#define Real2 vec2
 #define Light vec4
 Light storedLight(uvec2 words) {
     return unpackLight(words);
@@ -32,14 +34,14 @@ uvec2 packLight(Light light) {
 #endif
 
 // The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
-// middle in x and y. Rows are mixed in floats: fewer roundings.
-void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
+// middle in x and y.
+void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
     vec2 side = beside / (1.0 + 2.0 * beside);
     Light rows[4][2]; // the block's rows, filtered along x for the quad's two columns
     [[unroll]] for (int y = 0; y < 4; ++y) {
         Light row[4];
         [[unroll]] for (int x = 0; x < 4; ++x) {
-            row[x] = storedLight(pixelLights[pixelPlace(first + ivec2(x, y) - 1)]);
+            row[x] = storedLight(pixelLights[ownPlace(thread, ivec2(x, y) - 1)]);
         }
         [[unroll]] for (int x = 0; x < 2; ++x) {
             Light middle = row[x + 1];
@@ -50,8 +52,7 @@ void addSlopePixels(inout Sum sums[4], vec3 weight, ivec2 first, vec2 beside) {
         int x = i & 1;
         int y = i >> 1;
         Light middle = rows[y + 1][x];
-        add(sums[i], weight,
-            vec4(fma(Light(side.y), rows[y][x] - middle, fma(Light(side.y), rows[y + 2][x] - middle, middle))));
+        result[i] = fma(Light(side.y), rows[y][x] - middle, fma(Light(side.y), rows[y + 2][x] - middle, middle));
     }
 }
 
@@ -68,33 +69,51 @@ FineKernel fineKernel(float side) {
     return FineKernel(Real(0.25 + 0.25 * side), Real(0.75 * side), Real(0.25 * side));
 }
 
-Light filterFine(FineKernel kernel, Light outer, Light near, Light own, Light far) {
-    Light inner = fma(Light(kernel.near), near - own, fma(Light(kernel.far), far - own, own));
-    return fma(Light(kernel.outer), outer - own, inner);
+// Five texels in a row, filtered for the quad's two columns.
+void filterFineRow(FineKernel kernel, int first, out Light row[2]) {
+    Light own = storedLight(fineLights[first + 2]);
+    Light left = storedLight(fineLights[first + 1]) - own;
+    Light right = storedLight(fineLights[first + 3]) - own;
+    row[0] = fma(Light(kernel.outer), storedLight(fineLights[first]) - own,
+                 fma(Light(kernel.near), left, fma(Light(kernel.far), right, own)));
+    row[1] = fma(Light(kernel.outer), storedLight(fineLights[first + 4]) - own,
+                 fma(Light(kernel.near), right, fma(Light(kernel.far), left, own)));
 }
 
-// On a slope the mean's taps have its depths; `beside`: of the full-resolution 3x3, whose falloff is that of a wider variance.
-void addFinestLevel(inout Sum sums[4], vec3 weight, ivec2 texel, vec2 beside) {
+// Level 1 of a quad. On a slope the mean's taps have its depths; `beside`: of the full-resolution 3x3, whose falloff is that
+// of a wider variance.
+void filterFinestLevel(out Light result[4], ivec2 texel, vec2 beside) {
     vec2 falloffs = 2.0 * beside;
     falloffs *= sqrt(falloffs);
     vec2 side = falloffs / (1.0 + 2.0 * falloffs);
     FineKernel kernelX = fineKernel(side.x);
     FineKernel kernelY = fineKernel(side.y);
-    Light rows[5][2];
-    [[unroll]] for (int y = 0; y < 5; ++y) {
-        int index = fineIndex(texel + ivec2(-2, y - 2));
-        Light row[5];
-        [[unroll]] for (int x = 0; x < 5; ++x) {
-            row[x] = storedLight(fineLights[index + x]);
-        }
-        rows[y][0] = filterFine(kernelX, row[0], row[1], row[2], row[3]);
-        rows[y][1] = filterFine(kernelX, row[4], row[3], row[2], row[1]);
-    }
+    int first = fineIndex(texel - 2);
+    Light own[2];
+    filterFineRow(kernelX, first + 2 * finePitch, own);
+    result = Light[](own[0], own[1], own[0], own[1]);
+    const int rows[4] = int[](0, 1, 3, 4);
+    Light upper[4] = Light[](Light(kernelY.outer), Light(kernelY.near), Light(kernelY.far), Light(0.0));
+    Light lower[4] = Light[](Light(0.0), Light(kernelY.far), Light(kernelY.near), Light(kernelY.outer));
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        int x = i & 1;
-        vec4 lightAndMass = i < 2 ? vec4(filterFine(kernelY, rows[0][x], rows[1][x], rows[2][x], rows[3][x]))
-                                  : vec4(filterFine(kernelY, rows[4][x], rows[3][x], rows[2][x], rows[1][x]));
-        add(sums[i], weight, lightAndMass);
+        Light row[2];
+        filterFineRow(kernelX, first + rows[i] * finePitch, row);
+        [[unroll]] for (int x = 0; x < 2; ++x) {
+            Light difference = row[x] - own[x];
+            if (i < 3) {
+                result[x] = fma(upper[i], difference, result[x]);
+            }
+            if (i > 0) {
+                result[x + 2] = fma(lower[i], difference, result[x + 2]);
+            }
+        }
+    }
+}
+
+// Adds a kernel of which every pixel of the quad has its own value.
+void addFiltered(inout Sum sums[4], vec3 weight, Light filtered[4]) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        add(sums[i], weight, vec4(filtered[i]));
     }
 }
 
@@ -103,54 +122,52 @@ Taps mixTaps(Taps a, Taps b, float fraction) {
 }
 
 // Adds a level with bilinear weights, from 2 on, where the quad's pixels lie between the same four texels.
-void addPlainLevel(inout Sum sums[4], vec3 weight, int level, Corner corner) {
-    int below = corner.place + levelPitch[level].x;
-    float step = 1.0 / float(1 << level);
-    vec2 fraction = corner.fraction;
+void addPlainLevel(inout Sum sums[4], vec3 weight, Corner corner) {
+    int below = corner.place + levelPitch;
+    Real2 first = Real2(corner.fraction);
+    Real2 next = first + Real(corner.step);
     Light upperLeft = storedLight(levelLights[corner.place]);
     Light lowerLeft = storedLight(levelLights[below]);
     Light upperSlope = storedLight(levelLights[corner.place + 1]) - upperLeft;
     Light lowerSlope = storedLight(levelLights[below + 1]) - lowerLeft;
     [[unroll]] for (int x = 0; x < 2; ++x) {
-        Light upper = fma(Light(fraction.x), upperSlope, upperLeft);
-        Light slope = fma(Light(fraction.x), lowerSlope, lowerLeft) - upper;
-        add(sums[x], weight, vec4(fma(Light(fraction.y), slope, upper)));
-        add(sums[x + 2], weight, vec4(fma(Light(fraction.y + step), slope, upper)));
-        fraction.x += step;
+        Real fraction = x == 0 ? first.x : next.x;
+        Light upper = fma(Light(fraction), upperSlope, upperLeft);
+        Light slope = fma(Light(fraction), lowerSlope, lowerLeft) - upper;
+        add(sums[x], weight, vec4(fma(Light(first.y), slope, upper)));
+        add(sums[x + 2], weight, vec4(fma(Light(next.y), slope, upper)));
     }
 }
 
 // The same with depth weights, which the quad's pixels share.
-void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth, uint material) {
+void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth) {
     float scale = levelScale(level, depth);
     Taps taps[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        int place = corner.place + (i & 1) + (i >> 1) * levelPitch[level].x;
-        uvec2 surface = levelSurfaces[place];
-        float distance = uintBitsToFloat(surface.x) - depth;
-        float tapWeight = surfaceWeight(surface, distance, scale, material);
-        taps[i] = Taps(tapWeight * weightedLight(levelLights[place]), tapWeight, tapWeight * distance);
+        int place = corner.place + (i & 1) + (i >> 1) * levelPitch;
+        float distance = levelDepths[place] - depth;
+        float tapWeight = depthWeight(distance, scale);
+        taps[i] = Taps(tapWeight * levelLight(levelLights[place]), tapWeight, tapWeight * distance);
     }
     vec2 fraction = corner.fraction;
-    float step = 1.0 / float(1 << level);
     [[unroll]] for (int x = 0; x < 2; ++x) {
         Taps upper = mixTaps(taps[0], taps[1], fraction.x);
         Taps lower = mixTaps(taps[2], taps[3], fraction.x);
         addTaps(sums[x], weight, mixTaps(upper, lower, fraction.y), scale);
-        addTaps(sums[x + 2], weight, mixTaps(upper, lower, fraction.y + step), scale);
-        fraction.x += step;
+        addTaps(sums[x + 2], weight, mixTaps(upper, lower, fraction.y + corner.step), scale);
+        fraction.x += corner.step;
     }
 }
 
-void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 first, float depth, uint material) {
+void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 first, float depth) {
     [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
         vec3 weight = kernelWeight(mixture, level + 1);
         if (weight != vec3(0.0)) {
             Corner corner = levelCorner(level, region, first);
             if ((roughLevels >> level & 1u) == 0u) {
-                addPlainLevel(sums, weight, level, corner);
+                addPlainLevel(sums, weight, corner);
             } else {
-                addWeightedLevel(sums, weight, level, corner, depth, material);
+                addWeightedLevel(sums, weight, level, corner, depth);
             }
         }
     }
@@ -173,8 +190,20 @@ ivec2 fineRingPosition(int index) {
                       : ivec2((beyond & 3) < 2 ? (beyond & 3) - 2 : (beyond & 3) + fineSize.x - 2, beyond >> 2);
 }
 
+// The words of a thread's quad and the materials of its pixels, not unpacked before they are needed: they take less room so.
+struct PackedQuad {
+    uvec2 words;
+    uvec2 materials;
+};
+
+// Whether the material of one of a quad's pixels, counted row by row, is this one.
+bool hasMaterial(PackedQuad quad, int i, uint material) {
+    uint difference = (i < 2 ? quad.materials.x : quad.materials.y) ^ material * 0x10001u;
+    return (difference & ((i & 1) == 0 ? 0xffffu : 0xffff0000u)) == 0u;
+}
+
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
-Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
+PackedQuad loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
     int fine = texelIndex(1, (region >> 1) + texel);
     uvec2 quadWords = quads[fine];
@@ -187,13 +216,12 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     int ringThread = threads - 1 - thread;
     ivec2 fineRing = fineRingPosition(min(ringThread, fineRingCount - 1));
     uvec2 ringLight = rawWords(1, (region >> 1) + fineRing).xy;
-    int level;
-    int coarse = coarseIndex(min(thread, coarseCount - 1), region, level);
-    uvec2 coarseLight = blurredLights[blurredIndex(coarse)];
-    uvec2 coarseSurface = rawTexels[coarse].zw;
+    Coarse coarse = findCoarse(min(thread, coarseCount - 1), region);
+    uvec2 coarseLight = blurredLights[blurredIndex(coarse.index)];
+    uvec2 coarseSurface = rawTexels[coarse.index].zw;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel = fetchPixel(region, ring);
-    Quad quad = unpackQuad(quadWords, materialsOf(quadWords, fine));
+    PackedQuad quad = PackedQuad(quadWords, materialsOf(quadWords, fine));
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
             ivec2 pixel = min(first + ivec2(i & 1, i >> 1), last);
@@ -205,12 +233,12 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
         storeFine(fineRing, ringLight);
     }
     if (thread < coarseCount) {
-        storeLevelTexel(thread, level, coarseLight);
-        storeSurfaces(thread, coarse, coarseSurface, coarseLight);
+        storeLevelTexel(coarse, coarseLight);
+        storeSurfaces(coarse, coarseSurface, coarseLight);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        storePixel(2 * texel + 1 + offset, lights[i], 0.0, 0.0, pixelMaterial(quad.materials, offset));
+        storePixel(ownPlace(texel, offset), lights[i], 0.0, 0.0, hasMaterial(quad, i, 0u) ? 0u : 1u);
     }
     if (thread < ringCount) {
         storeFetched(region, ring, ringPixel);
@@ -229,34 +257,36 @@ void main() {
         roughLevels = 0u;
     }
     barrier();
-    Quad quad = loadRegion(region, thread, texel);
+    PackedQuad packed = loadRegion(region, thread, texel);
     barrier();
-    uint ownMaterials[4] =
-        uint[](quad.materials.x & 0xffffu, quad.materials.x >> 16, quad.materials.y & 0xffffu, quad.materials.y >> 16);
     ivec2 first = region + 2 * texel;
-    ivec2 place = 2 * texel + 1;
     uint scattering = 0u; // bits of the pixels that have a material
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        scattering |= ownMaterials[i] != 0u ? 1u << i : 0u;
+        scattering |= hasMaterial(packed, i, 0u) ? 0u : 1u << i;
     }
     // One round for every material in the quad.
     for (uint left = scattering; left != 0u;) {
-        uint material = (left & 1u) != 0u   ? ownMaterials[0]
-                        : (left & 2u) != 0u ? ownMaterials[1]
-                        : (left & 4u) != 0u ? ownMaterials[2]
-                                            : ownMaterials[3];
+        int next = findLSB(left);
+        uint material = pixelMaterial(packed.materials, ivec2(next & 1, next >> 1));
         bvec4 members;
         [[unroll]] for (int i = 0; i < 4; ++i) {
-            members[i] = ownMaterials[i] == material;
+            members[i] = hasMaterial(packed, i, material);
             left &= members[i] ? ~(1u << i) : ~0u;
         }
+        Quad quad = unpackQuad(packed.words, packed.materials);
         Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
+        Light pixels[4];
+        filterPixels(pixels, texel, quad.beside);
+        Light finest[4] = pixels;
+        if ((usedKernels(mixture) & finestKernel) != 0u) {
+            filterFinestLevel(finest, texel, quad.beside);
+        }
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-        addIdentity(sums, mixture, place);
-        addSlopePixels(sums, kernelWeight(mixture, 1), place, quad.beside);
-        addFinestLevel(sums, kernelWeight(mixture, 2), texel, quad.beside);
-        addCoarseLevels(sums, mixture, region, first, quad.depth, material);
-        storeGroup(first, place, members, material, mixture.strength, sums);
+        addIdentity(sums, mixture, texel);
+        addFiltered(sums, kernelWeight(mixture, 1), pixels);
+        addFiltered(sums, kernelWeight(mixture, 2), finest);
+        addCoarseLevels(sums, mixture, region, first, quad.depth);
+        storeGroup(first, members, material, mixture.strength, sums);
     }
     if (scattering != 15u) {
         storeRest(first, scattering);

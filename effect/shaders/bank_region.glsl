@@ -1,5 +1,6 @@
 // What the two pipelines of pass C of `bank` know of a region, in shared memory: its pixels, and the texels that they
 // read. docs/scatter.md. Needs the constant isEdge: whether depths of pixels and surfaces of texels are loaded, too.
+#define BANK_ACCESS readonly
 #include "bank.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -15,13 +16,20 @@ const ivec2 fineSize = regionSize / 2;           // texels of level 1
 // Level 1 is loaded as reduced, with two texels around, for its 3x3 mean and to read that bilinearly.
 const int finePitch = fineSize.x + 4;
 const int fineCount = finePitch * (fineSize.y + 4);
-// The texels of a blurred level that the region's pixels read: from one before its first on, at most this many.
-const ivec2 levelPitch[bankLevels + 1] =
-    isEdge ? ivec2[](ivec2(0), ivec2(0), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3), ivec2(3, 3))
-           : ivec2[](ivec2(0), ivec2(0), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 3), ivec2(3, 3));
+// Of a blurred level a region's pixels read so many texels, from levelFirst on.
+const ivec2 levelSizes[bankLevels + 1] =
+    isEdge ? ivec2[](ivec2(0), ivec2(0), ivec2(6, 4), ivec2(4, 3), ivec2(3, 2), ivec2(2, 2), ivec2(2, 2))
+           : ivec2[](ivec2(0), ivec2(0), ivec2(10, 6), ivec2(6, 4), ivec2(4, 3), ivec2(3, 2), ivec2(2, 2));
+// How many a region reads of the levels from 2 on before those of a level.
 const int levelStart[bankLevels + 2] =
-    isEdge ? int[](0, 0, 0, 24, 36, 45, 54, 63) : int[](0, 0, 0, 60, 84, 96, 105, 114);
+    isEdge ? int[](0, 0, 0, 24, 36, 42, 46, 50) : int[](0, 0, 0, 60, 84, 96, 102, 106);
 const int coarseCount = levelStart[bankLevels + 1];
+// In shared memory they lie in one sheet as wide as level 2, the others below it and side by side, so that a place follows
+// from its level without tables. Here are the levels' first places, halved, six bits each.
+const int levelPitch = levelSizes[2].x;
+const uint levelPlaces = isEdge ? 0u | 12u << 6 | 21u << 12 | 14u << 18 | 20u << 24
+                                : 0u | 30u << 6 | 33u << 12 | 48u << 18 | 50u << 24;
+const int coarseRoom = isEdge ? 51 : 112;
 
 const int pairPitch = regionSize.x / 2 + 1;
 const int pairCount = pairPitch * (regionSize.y + 2);
@@ -31,17 +39,21 @@ const int ringCount = 2 * (regionSize.x + 2 + regionSize.y);
 // The region's pixels with one around: light, and 1 where a pixel gives light; depth, 0 where there is none.
 shared uvec2 pixelLights[pixelCount];
 shared float pixelDepths[isEdge ? pixelCount : 1];
-shared float pixelAreas[isEdge ? pixelCount : 1]; // of the surface, relative to one that faces the camera
+// Of the surface, relative to one that faces the camera; 0 where a pixel gives no light.
+shared float pixelAreas[isEdge ? pixelCount : 1];
 shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
 // Of level 1's texels as reduced: their first two words, light and area; in smooth regions light times mass, and mass.
 shared uvec2 fineLights[fineCount];
-shared uvec2 levelLights[coarseCount]; // as blurredLights
-// Of the same texels: depth, and a raw texel's last word: mass (0 = no surface near) and material.
-shared uvec2 levelSurfaces[coarseCount];
-// As levelLights and levelSurfaces, of the texels that have a second one (secondBit).
-const int secondCount = levelStart[bankSecondLevels + 1];
+shared uvec2 levelLights[coarseRoom]; // as blurredLights
+// Of the same texels' surfaces. Where none is near, and for second ones where there is none, depth is so far that it weighs
+// nothing.
+const float farAway = 1e15;
+shared float levelDepths[coarseRoom];
+shared uint levelMaterials[isEdge && separateMaterials ? coarseRoom : 1];
+// Of the second surfaces, of levels 2 and 3, whose places are the first.
+const int secondCount = isEdge ? 40 : 0;
 shared uvec2 secondLights[isEdge && secondLevels > 0 ? secondCount : 1];
-shared uvec2 secondSurfaceWords[isEdge && secondLevels > 0 ? secondCount : 1];
+shared float secondDepths[isEdge && secondLevels > 0 ? secondCount : 1];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
@@ -57,29 +69,42 @@ bool findRegion(int kind, out ivec2 region) {
     return true;
 }
 
-// The first texel of a level in shared memory.
+// The first texel of a level in shared memory: the one left of and above the region's first pixel.
 ivec2 levelFirst(int level, ivec2 region) {
-    return (region >> level) - 1;
+    return (region - (1 << (level - 1))) >> level;
 }
 
 int globalIndex(int level, ivec2 texel) {
     return texelIndex(level, clamp(texel, ivec2(0), levelExtent(level) - 1));
 }
 
-// A texel of the levels from 2 on: its level and where it is in the pyramid.
-int coarseIndex(int index, ivec2 region, out int level) {
-    level = 2;
-    int pitch = levelPitch[2].x;
+// Where a level begins in the sheet.
+int levelPlace(int level) {
+    return int(levelPlaces >> 6 * (level - 2) & 63u) * 2;
+}
+
+// A texel of the levels from 2 on: which one it is of those that the region reads, counted level by level.
+struct Coarse {
+    int level;
+    int place; // in shared memory
+    int index; // in the pyramid
+};
+
+Coarse findCoarse(int number, ivec2 region) {
+    int level = 2;
+    int width = levelSizes[2].x;
     int start = 0;
     [[unroll]] for (int next = 3; next <= bankLevels; ++next) {
-        if (index >= levelStart[next]) {
+        if (number >= levelStart[next]) {
             level = next;
-            pitch = levelPitch[next].x;
+            width = levelSizes[next].x;
             start = levelStart[next];
         }
     }
-    int row = int((float(index - start) + 0.5) / float(pitch));
-    return globalIndex(level, levelFirst(level, region) + ivec2(index - start - row * pitch, row));
+    int row = int((float(number - start) + 0.5) / float(width));
+    ivec2 texel = ivec2(number - start - row * width, row);
+    return Coarse(level, levelPlace(level) + texel.y * levelPitch + texel.x,
+                  globalIndex(level, levelFirst(level, region) + texel));
 }
 
 // In fineLights; counted from the region's first texel.
@@ -94,20 +119,28 @@ int pixelPlace(ivec2 pixel) {
                   : (pixel.x & 1) * pairCount + pixel.y * pairPitch + (pixel.x >> 1);
 }
 
+// The same for a pixel that lies so far from the first of a thread's own; what only depends on `offset` is known in advance.
+int ownPlace(ivec2 thread, ivec2 offset) {
+    if (isEdge) {
+        return pixelPlace(thread + offset + 1);
+    }
+    ivec2 place = offset + 1;
+    return (place.x & 1) * pairCount + (place.x >> 1) + place.y * pairPitch + (2 * thread.y * pairPitch + thread.x);
+}
+
 vec3 fetchLight(ivec2 local) {
     return texelFetch(irradianceImage, local + view.areaOffset, 0).rgb;
 }
 
-// `place`: counted from the pixel up and left of the region's first.
-void storePixel(ivec2 place, vec3 light, float depth, float area, uint material) {
+// `index`: its place in shared memory.
+void storePixel(int index, vec3 light, float depth, float area, uint material) {
     bool receives = material != 0u && (!isEdge || depth > 0.0);
     bool gives = receives && isFinite(light);
-    int index = pixelPlace(place);
     uvec2 words = uvec2(packHalf2x16(min(light.rg, vec2(maxHalf))), packHalf2x16(vec2(min(light.b, maxHalf), 1.0)));
     pixelLights[index] = gives ? words : uvec2(0u);
     if (isEdge) {
         pixelDepths[index] = receives ? depth : 0.0;
-        pixelAreas[index] = area;
+        pixelAreas[index] = gives ? area : 0.0;
     }
     if (isEdge && separateMaterials) {
         pixelMaterials[index] = material;
@@ -141,7 +174,7 @@ uint storeFetched(ivec2 region, ivec2 place, Fetched fetched) {
         light *= albedoBefore(fetched.local + view.areaOffset, material);
     }
     float area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));
-    storePixel(place + 1, light, fetched.depth, area, material);
+    storePixel(pixelPlace(place + 1), light, fetched.depth, area, material);
     return material;
 }
 
@@ -155,23 +188,25 @@ uvec2 surfaceOf(int index, uvec2 own, uvec2 light) {
 }
 
 // Notes whether a level is plain.
-void storeLevelTexel(int place, int level, uvec2 light) {
-    levelLights[place] = light;
+void storeLevelTexel(Coarse coarse, uvec2 light) {
+    levelLights[coarse.place] = light;
     if ((light.y & signBit) != 0u) {
-        atomicOr(roughLevels, 1u << level);
+        atomicOr(roughLevels, 1u << coarse.level);
     }
 }
 
-// Whether a texel, whose place in shared memory and surface these are, has a second one there.
-bool hasSecond(int place, uvec2 surface) {
-    return isEdge && secondLevels > 0 && place < secondCount && (surface.y & secondBit) != 0u;
-}
-
-// A texel's surface, and its second one in edge regions. `index`: in the pyramid; `place`: in shared memory.
-void storeSurfaces(int place, int index, uvec2 own, uvec2 light) {
-    if (hasSecond(place, own)) {
-        secondSurfaceWords[place] = secondTexels[3 * index + 1];
-        secondLights[place] = secondTexels[3 * index + 2];
+// A texel's surface, and its second one in edge regions.
+void storeSurfaces(Coarse coarse, uvec2 own, uvec2 light) {
+    uvec2 surface = surfaceOf(coarse.index, own, light);
+    levelDepths[coarse.place] = (surface.y & massBits) != 0u ? uintBitsToFloat(surface.x) : farAway;
+    if (isEdge && separateMaterials) {
+        levelMaterials[coarse.place] = surface.y >> 16;
     }
-    levelSurfaces[place] = surfaceOf(index, own, light);
+    if (isEdge && secondLevels > 0 && coarse.place < secondCount) {
+        bool hasSecond = (own.y & secondBit) != 0u;
+        secondDepths[coarse.place] = hasSecond ? uintBitsToFloat(secondTexels[3 * coarse.index + 1].x) : farAway;
+        if (hasSecond) {
+            secondLights[coarse.place] = secondTexels[3 * coarse.index + 2];
+        }
+    }
 }
