@@ -221,18 +221,21 @@ float unpackArea(uint areas, int i) {
     return uintBitsToFloat(0x3f800000u + ((areas >> 8 * i & 255u) << 17));
 }
 
+// Of a base that is 1 at no distance, its fourth power; 0 where it is negative.
+float falloffFrom(float base) {
+    float least = max(0.0, base);
+    float squared = least * least;
+    return squared * squared;
+}
+
 // e^−q, near enough, and 0 from q = 4 on.
 float falloff(float q) {
-    float base = max(0.0, 1.0 - 0.25 * q);
-    base *= base;
-    return base * base;
+    return falloffFrom(1.0 - 0.25 * q);
 }
 
 // The same of a distance's square over that of a width times a variance. `scale`: depthScale, of these two.
 float depthWeight(float distance, float scale) {
-    float base = max(0.0, 1.0 - distance * distance * scale);
-    base *= base;
-    return base * base;
+    return falloffFrom(1.0 - distance * distance * scale);
 }
 
 float depthScale(float width, float variance) {

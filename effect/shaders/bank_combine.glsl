@@ -136,8 +136,7 @@ void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum s
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {
             if (members[i]) {
                 ivec2 pixel = first + ivec2(i & 1, i >> 1);
-                vec3 entering = enteringLight(pixel, material);
-                leaving[i] = isFinite(entering) ? mix(entering, leaving[i], strength * strengthAt(pixel)) : leaving[i];
+                leaving[i] = mixEntering(pixel, material, leaving[i], strength * strengthAt(pixel));
             }
         }
     }

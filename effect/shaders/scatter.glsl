@@ -46,6 +46,12 @@ vec3 enteringLight(ivec2 pixel, uint material) {
     return texelFetch(irradianceImage, pixel, 0).rgb * albedoBefore(pixel, material);
 }
 
+// What leaves a pixel where only a share of the light that enters has scattered, to `scattered`.
+vec3 mixEntering(ivec2 pixel, uint material, vec3 scattered, float strength) {
+    vec3 entering = enteringLight(pixel, material);
+    return isFinite(entering) ? mix(entering, scattered, strength) : scattered;
+}
+
 // Writes a pixel without subsurface scattering.
 void writeUnscattered(ivec2 pixel) {
     vec3 light = texelFetch(irradianceImage, pixel, 0).rgb;
@@ -78,8 +84,7 @@ void writeLight(ivec2 pixel, uint material, vec3 light) {
 void writeScattered(ivec2 pixel, uint material, vec3 leaving) {
     float strength = strengthAt(pixel, material);
     if (strength < 1.0) {
-        vec3 entering = enteringLight(pixel, material);
-        leaving = isFinite(entering) ? mix(entering, leaving, strength) : leaving;
+        leaving = mixEntering(pixel, material, leaving, strength);
     }
     writeLight(pixel, material, leaving);
 }
