@@ -266,40 +266,32 @@ float separationAt(int level, float nearest) {
     return separation * texelWidth(level, nearest);
 }
 
-// Whether four texels all are on one surface, nearest to farthest depth, so that all of them are kept.
-bool isOneSurface(RawTexel texels[4], int level) {
-    vec4 depths = vec4(texels[0].depth, texels[1].depth, texels[2].depth, texels[3].depth);
-    float nearest = min(min(depths.x, depths.y), min(depths.z, depths.w));
-    float farthest = max(max(depths.x, depths.y), max(depths.z, depths.w));
-    float leastMass = min(min(texels[0].mass, texels[1].mass), min(texels[2].mass, texels[3].mass));
-    return leastMass > 0.0 && farthest - nearest <= separationAt(level, nearest) &&
-           !separateMaterials;
+// Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.
+vec2 depthRange(RawTexel texels[4], vec2 range) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        float depth = texels[i].depth;
+        range = texels[i].mass > 0.0 ? vec2(min(range.x, depth), max(range.y, depth)) : range;
+    }
+    return range;
 }
+
+const vec2 noRange = vec2(1e30, 0.0);
 
 // Which of four texels the next level's texel keeps: those of one surface, nearest or farthest, whichever has more
 // mass; and of those, where materials are separate, the ones that exchange light with the heaviest.
 bvec4 chooseSurface(RawTexel texels[4], int level) {
-    bvec4 valid;
-    float nearest = 1e30;
-    float farthest = -1e30;
-    for (int i = 0; i < 4; ++i) {
-        valid[i] = texels[i].mass > 0.0;
-        nearest = valid[i] ? min(nearest, texels[i].depth) : nearest;
-        farthest = valid[i] ? max(farthest, texels[i].depth) : farthest;
+    vec2 range = depthRange(texels, noRange);
+    float separation = bankSurfaceSeparation * texelWidth(level, range.x);
+    bvec4 front;
+    bvec4 back;
+    float balance = 0.0; // 0 where all is one surface, which is both
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        bool valid = texels[i].mass > 0.0;
+        front[i] = valid && texels[i].depth - range.x <= separation;
+        back[i] = valid && range.y - texels[i].depth <= separation;
+        balance += (front[i] ? texels[i].mass : 0.0) - (back[i] ? texels[i].mass : 0.0);
     }
-    bvec4 kept = valid;
-    float separation = bankSurfaceSeparation * texelWidth(level, nearest);
-    if (farthest - nearest > separation) {
-        bvec4 front;
-        bvec4 back;
-        float balance = 0.0;
-        for (int i = 0; i < 4; ++i) {
-            front[i] = valid[i] && texels[i].depth - nearest <= separation;
-            back[i] = valid[i] && farthest - texels[i].depth <= separation;
-            balance += (front[i] ? texels[i].mass : 0.0) - (back[i] ? texels[i].mass : 0.0);
-        }
-        kept = balance >= 0.0 ? front : back;
-    }
+    bvec4 kept = balance >= 0.0 ? front : back;
     if (separateMaterials) {
         float heaviest = 0.0;
         uint material = 0u;
@@ -326,7 +318,7 @@ RawTexel mergeTexels(RawTexel texels[4], bvec4 kept) {
             result.area += 0.25 * texels[i].area;
             result.mass += 0.25 * texels[i].mass;
             result.depth += 0.25 * texels[i].mass * texels[i].depth;
-            if (texels[i].mass > heaviest) {
+            if (separateMaterials && texels[i].mass > heaviest) {
                 heaviest = texels[i].mass;
                 result.material = texels[i].material;
             }
@@ -338,22 +330,8 @@ RawTexel mergeTexels(RawTexel texels[4], bvec4 kept) {
 }
 
 RawTexel reduceTexels(RawTexel texels[4], int level) {
-    if (isOneSurface(texels, level)) {
-        return mergeTexels(texels, bvec4(true));
-    }
     return mergeTexels(texels, chooseSurface(texels, level));
 }
-
-// Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.
-vec2 depthRange(RawTexel texels[4], vec2 range) {
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        float depth = texels[i].depth;
-        range = texels[i].mass > 0.0 ? vec2(min(range.x, depth), max(range.y, depth)) : range;
-    }
-    return range;
-}
-
-const vec2 noRange = vec2(1e30, 0.0);
 
 // Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
 bvec4 nearerHalf(RawTexel texels[4], vec2 range) {

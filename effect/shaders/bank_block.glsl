@@ -177,14 +177,8 @@ Reduced reduceAny(Block block, Sides sides) {
             pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
         }
     }
-    bvec4 kept = bvec4(true);
-    result.second = emptyTexel();
-    if (secondLevels > 0) {
-        kept = heavierHalf(pixels);
-        result.second = mergeTexels(pixels, not(kept));
-    } else if (!isOneSurface(pixels, 1)) {
-        kept = chooseSurface(pixels, 1);
-    }
+    bvec4 kept = secondLevels > 0 ? heavierHalf(pixels) : chooseSurface(pixels, 1);
+    result.second = secondLevels > 0 ? mergeTexels(pixels, not(kept)) : emptyTexel();
     result.texel = mergeTexels(pixels, kept);
     result.texel.dropped = result.texel.dropped || dropped;
     vec2 steps = vec2(0.0);
@@ -233,7 +227,10 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
     if (!plain) {
         reduced = reduceAny(block, sides);
         bool rough = reduced.texel.dropped || isRough(block, sides);
-        atomicOr(roughness, notPlain | (rough ? tileRough(texel, side) : 0u));
+        uint bits = (rough ? tileRough(texel, side) : 0u) | (reduced.texel.mass < 1.0 ? notFull : 0u);
+        if (bits != 0u) {
+            atomicOr(roughness, bits);
+        }
     }
     return reduced;
 }

@@ -9,36 +9,49 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 const int side = tileSize / 2; // texels of level 1
 
-// Level 1; where the tile is not plain, each coarser level then stands at its first child's place.
-shared uvec4 texels[side * side];
-shared uvec4 seconds[secondLevels > 0 ? side * side : 1]; // their second surfaces, where they have one
-shared uvec4 plainTexels[4]; // level 3 of a plain tile
+// Level 1 as RawTexel has it; where the tile is not whole, each coarser level then stands at its first child's place.
+shared vec4 lightsAndAreas[side * side];
+shared vec2 depthsAndMasses[side * side]; // mass: negative where pixels were dropped
+shared uint texelMaterials[separateMaterials ? side * side : 1];
+shared uvec4 seconds[secondLevels > 0 ? side * side : 1]; // their second surfaces, in the words of packRaw
+shared vec4 wholeLights[4]; // sums of a whole tile's level 3
+shared float wholeDepths[4];
 // Of the tile's pixels and one around, mm; 0 where none receives light.
 const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
 shared uint occupied; // whether some pixel has a material
-shared uint roughness; // notPlain, and tileRough of the tile's blocks
-const uint notPlain = 1u; // some block is not plain
+shared uint roughness; // tileRough of the tile's blocks, and notFull
+const uint notFull = 1u; // a pixel of some block is on no surface, or on another than the block's
 
 #include "bank_block.glsl"
 
 // In shared memory, at its place there, and in the pyramid.
 void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel) {
+    RawTexel first = surfaces.first;
+    lightsAndAreas[place] = vec4(first.light, first.area);
+    depthsAndMasses[place] = vec2(first.depth, first.dropped ? -first.mass : first.mass);
+    if (separateMaterials) {
+        texelMaterials[place] = first.material;
+    }
     int index = texelIndex(level, texel);
-    uvec4 packed = packRaw(surfaces.first);
-    if (keepsSeconds(level) && surfaces.second.mass > 0.0) {
-        packed.w |= secondBit;
+    uvec4 packed = packRaw(first);
+    if (keepsSeconds(level)) {
         uvec4 second = packRaw(surfaces.second);
         seconds[place] = second;
-        secondTexels[3 * index] = second.xy;
-        secondTexels[3 * index + 1] = second.zw;
+        if (surfaces.second.mass > 0.0) {
+            packed.w |= secondBit;
+            secondTexels[3 * index] = second.xy;
+            secondTexels[3 * index + 1] = second.zw;
+        }
     }
-    texels[place] = packed;
     rawTexels[index] = packed;
 }
 
-RawTexel secondOf(int place) {
-    return (texels[place].w & secondBit) != 0u ? unpackRaw(seconds[place]) : emptyTexel();
+RawTexel texelAt(int place) {
+    vec4 lightAndArea = lightsAndAreas[place];
+    vec2 depthAndMass = depthsAndMasses[place];
+    return RawTexel(lightAndArea.rgb, lightAndArea.a, abs(depthAndMass.y), depthAndMass.x,
+                    separateMaterials ? texelMaterials[place] : 0u, depthAndMass.y < 0.0);
 }
 
 void reduceLevel(int level, ivec2 tile, int thread) {
@@ -51,61 +64,61 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     int first = (texel.y * side + texel.x) * 2 * spacing;
     RawTexel children[4];
     RawTexel others[4];
-    for (int i = 0; i < 4; ++i) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = first + ((i & 1) + (i >> 1) * side) * spacing;
-        children[i] = unpackRaw(texels[place]);
-        others[i] = keepsSeconds(level) ? secondOf(place) : emptyTexel();
+        children[i] = texelAt(place);
+        others[i] = keepsSeconds(level) ? unpackRaw(seconds[place]) : emptyTexel();
     }
     Surfaces surfaces = keepsSeconds(level) ? reduceSurfaces(children, others, level)
                                                   : Surfaces(reduceTexels(children, level), emptyTexel());
     storeSurfaces(surfaces, first, level, tile * width + texel);
 }
 
-// Sums of a plain tile's texels, which all are full.
-struct PlainSum {
+// Sums of a whole tile's texels, which all are full.
+struct WholeSum {
     vec4 lightAndArea;
     float depth;
 };
 
-void addTexel(inout PlainSum sum, uvec4 words) {
-    vec2 blueArea = unpackHalf2x16(words.y);
-    sum.lightAndArea += blueArea.y * vec4(unpackHalf2x16(words.x), blueArea.x, 1.0);
-    sum.depth += uintBitsToFloat(words.z);
-}
-
-uvec4 storeMean(int level, ivec2 texel, PlainSum sum, float count, uint lastWord) {
-    vec3 light = sum.lightAndArea.rgb / sum.lightAndArea.a;
-    uvec4 words = uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, sum.lightAndArea.a / count)),
-                        floatBitsToUint(sum.depth / count), lastWord);
-    rawTexels[texelIndex(level, texel)] = words;
-    return words;
-}
-
-PlainSum sumTexels(ivec2 first, int span) {
-    PlainSum sum = PlainSum(vec4(0.0), 0.0);
+WholeSum sumTexels(ivec2 first, int span) {
+    WholeSum sum = WholeSum(vec4(0.0), 0.0);
     for (int i = 0; i < span * span; ++i) {
-        addTexel(sum, texels[(first.y + i / span) * side + first.x + i % span]);
+        int place = (first.y + i / span) * side + first.x + i % span;
+        sum.lightAndArea += lightsAndAreas[place];
+        sum.depth += depthsAndMasses[place].x;
     }
     return sum;
 }
 
-// The coarser levels of a plain tile: levels 2 and 3 at once, by different subgroups, both from level 1.
-void reducePlainTile(ivec2 tile, int thread) {
-    uint lastWord = texels[0].w; // full, and a material of the surface's
+// `share`: of one of the texels of level 1 that were summed.
+void storeMean(int level, ivec2 texel, WholeSum sum, float share) {
+    vec4 mean = share * sum.lightAndArea;
+    rawTexels[texelIndex(level, texel)] =
+        packRaw(RawTexel(mean.rgb, mean.a, 1.0, share * sum.depth, 0u, false));
+}
+
+// The coarser levels of a whole tile: levels 2 and 3 at once, by different subgroups, both from level 1. No pixel is missing
+// and no step from pixel to pixel is longer than bankSmoothDepth pixel widths, so that the four that a texel is made of are
+// no further apart than bankSurfaceSeparation times its width: one surface on every level.
+void reduceWholeTile(ivec2 tile, int thread) {
     if (thread < 16) {
         ivec2 texel = ivec2(thread & 3, thread >> 2);
-        storeMean(2, 4 * tile + texel, sumTexels(2 * texel, 2), 4.0, lastWord);
+        storeMean(2, 4 * tile + texel, sumTexels(2 * texel, 2), 1.0 / 4.0);
     } else if (thread >= 32 && thread < 36) {
         ivec2 texel = ivec2(thread & 1, thread >> 1 & 1);
-        plainTexels[thread - 32] = storeMean(3, 2 * tile + texel, sumTexels(4 * texel, 4), 16.0, lastWord);
+        WholeSum sum = sumTexels(4 * texel, 4);
+        wholeLights[thread - 32] = sum.lightAndArea;
+        wholeDepths[thread - 32] = sum.depth;
+        storeMean(3, 2 * tile + texel, sum, 1.0 / 16.0);
     }
     barrier();
     if (thread == 0) {
-        PlainSum sum = PlainSum(vec4(0.0), 0.0);
+        WholeSum sum = WholeSum(vec4(0.0), 0.0);
         for (int i = 0; i < 4; ++i) {
-            addTexel(sum, plainTexels[i]);
+            sum.lightAndArea += wholeLights[i];
+            sum.depth += wholeDepths[i];
         }
-        storeMean(4, tile, sum, 4.0, lastWord);
+        storeMean(4, tile, sum, 1.0 / 64.0);
     }
 }
 
@@ -189,10 +202,10 @@ void main() {
     quadAreas[index] = packAreas(reduced.areas);
     barrier();
     if (thread == 0) {
-        tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notPlain);
+        tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notFull);
     }
-    if (roughness == 0u) {
-        reducePlainTile(tile, thread);
+    if (roughness == 0u && !separateMaterials) {
+        reduceWholeTile(tile, thread);
         return;
     }
     for (int level = 2; level <= rawLevels; ++level) {
