@@ -74,7 +74,7 @@ BankWeights projectOnBank(const Profile& profile, double pixelsPerMillimeter) {
             }
         }
         Vector mixture{1};
-        solveOnSimplex(form.gram, sums, mixture);
+        solveMixture(sums, mixture);
         for (int kernel = 0; kernel < bankSize; ++kernel) {
             weights[kernel][channel] = mixture[kernel];
         }
@@ -92,7 +92,7 @@ BankTable::BankTable(const Profile& profile) : halves_(binCount * halvesPerBin) 
         for (int bin = 0; bin < binCount; ++bin) {
             const int first = (binCount - 1 - bin) * samplesPerBin;
             const Vector sums = rightHandSide(std::span(samples).subspan(first, reachSamples));
-            solveOnSimplex(bankForm().gram, sums, mixture);
+            solveMixture(sums, mixture);
             for (int kernel = 0; kernel < bankSize; ++kernel) {
                 halves_[bin * halvesPerBin + 3 * kernel + channel] = toHalf(static_cast<float>(mixture[kernel]));
             }

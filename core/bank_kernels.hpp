@@ -23,9 +23,9 @@ struct BankForm {
 /// Built once.
 const BankForm& bankForm();
 
-/// The x minimising xᵀ·gram·x − 2·rightHandSideᵀ·x over x ≥ 0, Σx = 1 (active set, at most a few 8x8 solves). `x` holds
-/// a feasible start, such as the solution of a similar problem, and receives the result.
-void solveOnSimplex(const std::array<std::array<double, bankSize>, bankSize>& gram,
-                    const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x);
+/// The mixture x minimising xᵀ·gram·x − 2·rightHandSideᵀ·x, with the bank's gram, over x ≥ 0, Σx = 1 (active set, at most
+/// a few 8x8 solves); kernels that would have less than bankLeastShare are left out, the smallest first. `x` holds a
+/// feasible start, such as the mixture of a similar problem, and receives the result.
+void solveMixture(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x);
 
 } // namespace nacre

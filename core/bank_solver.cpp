@@ -2,10 +2,59 @@
 #include "simplex.hpp"
 
 namespace nacre {
+namespace {
 
-void solveOnSimplex(const std::array<std::array<double, bankSize>, bankSize>& gram,
-                    const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x) {
-    SimplexProblem<bankSize>(gram, rightHandSide).solve(x);
+using Problem = SimplexProblem<bankSize>;
+
+// The kernel with the smallest share, if that is less than bankLeastShare, else −1.
+int smallestShare(const Problem::Vector& x) {
+    int smallest = -1;
+    double least = bankLeastShare;
+    for (int kernel = 0; kernel < bankSize; ++kernel) {
+        if (x[kernel] > 0 && x[kernel] < least) {
+            smallest = kernel;
+            least = x[kernel];
+        }
+    }
+    return smallest;
+}
+
+// The same problem with no kernels but those that `x` has a share of.
+void solveWithin(const Problem::Matrix& gram, const Problem::Vector& rightHandSide, Problem::Vector& x) {
+    std::array<int, bankSize> kernels{};
+    int count = 0;
+    double sum = 0;
+    for (int kernel = 0; kernel < bankSize; ++kernel) {
+        if (x[kernel] > 0) {
+            kernels[count++] = kernel;
+            sum += x[kernel];
+        }
+    }
+    Problem::Matrix part{};
+    Problem::Vector partRightHandSide{};
+    Problem::Vector shares{};
+    for (int i = 0; i < count; ++i) {
+        partRightHandSide[i] = rightHandSide[kernels[i]];
+        shares[i] = x[kernels[i]] / sum;
+        for (int k = 0; k < count; ++k) {
+            part[i][k] = gram[kernels[i]][kernels[k]];
+        }
+    }
+    Problem(part, partRightHandSide, count).solve(shares);
+    for (int i = 0; i < count; ++i) {
+        x[kernels[i]] = shares[i];
+    }
+}
+
+} // namespace
+
+void solveMixture(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x) {
+    const Problem::Matrix& gram = bankForm().gram;
+    Problem(gram, rightHandSide).solve(x);
+    for (int kernel = smallestShare(x); kernel >= 0; kernel = smallestShare(x)) {
+        x[kernel] = 0;
+        solveWithin(gram, rightHandSide, x);
+    }
 }
 
 } // namespace nacre
