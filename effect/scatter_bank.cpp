@@ -61,12 +61,14 @@ VkExtent3D reduceGrid(VkExtent2D area) {
     return {cells.width * (cellSize / tileSize), cells.height * (cellSize / tileSize), 1};
 }
 
-// Workgroups that blur a level or, in place of level 1, list the regions.
+// Workgroups that list the regions, the first of pass B.
+std::uint32_t listCount(VkExtent2D area) {
+    const VkExtent2D cells = cellCount(area);
+    return ratioUp(cells.width * cells.height * (cellSize / regionSize.height), blurThreads);
+}
+
+// Workgroups that blur a level.
 std::uint32_t blockCount(VkExtent2D area, int level) {
-    if (level == 1) {
-        const VkExtent2D cells = cellCount(area);
-        return ratioUp(cells.width * cells.height * (cellSize / regionSize.height), blurThreads);
-    }
     const VkExtent2D extent = levelExtent(area, level);
     const std::uint32_t rows = level == bankLevels ? coarsestBlurRows : blurBlock.height;
     return ratioUp(extent.width, blurBlock.width) * ratioUp(extent.height, rows);
@@ -74,8 +76,8 @@ std::uint32_t blockCount(VkExtent2D area, int level) {
 
 // One workgroup per block of any level and for the lists, in rows of at most bankDispatchWidth.
 VkExtent3D blurGrid(VkExtent2D area) {
-    std::uint32_t count = 0;
-    for (int level = 1; level <= bankLevels; ++level) {
+    std::uint32_t count = listCount(area);
+    for (int level = 2; level <= bankLevels; ++level) {
         count += blockCount(area, level);
     }
     return {std::min<std::uint32_t>(count, bankDispatchWidth), ratioUp(count, bankDispatchWidth), 1};
@@ -202,10 +204,11 @@ VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
     return bankQuadBytes(maxExtent) / sizeof(uvec2) * sizeof(std::uint32_t);
 }
 
-// The dispatches, then an entry for every tile and, on either list, one for every region; a cell has four and two.
+// The dispatches, then an entry for every tile, of which a cell has four, and room for all regions on either list: two
+// smooth ones a cell, or eight edge regions.
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent) {
     const VkExtent2D cells = cellCount(maxExtent);
-    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 8 * cells.width * cells.height;
+    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 14 * cells.width * cells.height;
 }
 
 // The levels lie one after the other, finest first; their blocks are blurred coarsest first.
@@ -218,8 +221,8 @@ void setBankLevels(ScatterParameters& parameters, VkExtent2D area) {
         parameters.bankLevels[level] = {texels, width, height, 0};
         texels += width * height;
     }
-    std::int32_t blocks = 0;
-    for (int level = bankLevels; level >= 1; --level) {
+    auto blocks = static_cast<std::int32_t>(listCount(area));
+    for (int level = bankLevels; level >= 2; --level) {
         parameters.bankLevels[level].w = blocks;
         blocks += static_cast<std::int32_t>(blockCount(area, level));
     }

@@ -35,7 +35,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) BANK_ACCESS buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
-    // Per tile: tileOccupied, tileRough; then the list of smooth regions, then that of edge regions.
+    // Per tile: tileOccupied, tileRough; then the list of smooth regions, then that of edge regions (listEntry).
     uint tileEntries[];
 };
 
@@ -46,7 +46,7 @@ const int secondLevels = separateMaterials ? 0 : bankSecondLevels;
 const int secondLevels = 0;
 #endif
 const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a side in each tile
-const uint edgeParts = 4u; // workgroups that combine an edge region of 32x16 px
+const ivec2 partSize = ivec2(16, 8); // px, of an edge region; a smooth one is 2x2 of these
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
 const uint secondBit = secondLevels > 0 ? 0x4000u : 0u; // of a raw texel's last word: it has a second surface
@@ -138,7 +138,7 @@ int tileIndex(ivec2 tile) {
     return tile.y * levelExtent(rawLevels).x + tile.x;
 }
 
-// Regions of 32x16 px, two tiles side by side, which pass C combines.
+// Smooth regions, of 32x16 px, two tiles side by side.
 ivec2 regionCount() {
     return levelExtent(rawLevels) / ivec2(2, 1);
 }
@@ -149,14 +149,20 @@ int regionList(int kind) {
     return (2 + kind) * regions.x * regions.y;
 }
 
+// A region on a list: its first part, and of a smooth one bits of its parts that are edge regions.
+uint listEntry(ivec2 part, uint edges) {
+    return uint(part.x) | uint(part.y) << 12 | edges << 24;
+}
+
 // Bits of a tile's entry: whether pixels have a material,
 const uint tileOccupied = 1u;
 
-// and whether depth makes a step or pixels were left out at its corners, along its sides and inside, nine in all. The one
-// that a 2x2 block of its pixels belongs to; `side`: blocks a side.
-uint tileRough(ivec2 block, int side) {
-    ivec2 third = ivec2(greaterThan(block, ivec2(0))) + ivec2(equal(block, ivec2(side - 1)));
-    return 2u << (3 * third.y + third.x);
+// and whether depth makes a step or pixels were left out, by rows (the first, the next two, the fourth, and so from below)
+// and columns (the first, the last, those between) of its 8x8 blocks of 2x2 px: eighteen in all. The one for a block.
+uint tileRough(ivec2 block) {
+    int row = int(0x54432110u >> 4 * block.y & 7u);
+    int column = (block.x > 0 ? 1 : 0) + (block.x == 7 ? 1 : 0);
+    return 2u << (3 * row + column);
 }
 
 int texelIndex(int level, ivec2 texel) {

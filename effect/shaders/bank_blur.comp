@@ -28,11 +28,10 @@ struct Block {
     int rows;
 };
 
-// The levels' blocks, counted from the coarsest level on. What is left after level 2, and said to be level 1's, makes the
-// lists.
+// The levels' blocks, counted from the coarsest level on.
 Block findBlock(int group) {
-    int level = 1;
-    [[unroll]] for (int finer = 1; finer < bankLevels; ++finer) {
+    int level = 2;
+    [[unroll]] for (int finer = 2; finer < bankLevels; ++finer) {
         level += group < parameters.bankLevels[finer].w ? 1 : 0;
     }
     ivec4 place = parameters.bankLevels[level];
@@ -337,11 +336,11 @@ void blurRough(Block block, ivec2 local, int center) {
 void main() {
     int thread = int(gl_LocalInvocationIndex);
     int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
-    Block block = findBlock(group);
-    if (block.level == 1) {
-        listRegions(group - parameters.bankLevels[1].w, thread);
+    if (group < parameters.bankLevels[bankLevels].w) {
+        listRegions(group, thread);
         return;
     }
+    Block block = findBlock(group);
     if (thread == 0) {
         rough = 0u;
     }

@@ -176,7 +176,8 @@ void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 pixel, float 
 
 void main() {
     ivec2 region;
-    if (!findRegion(1, region)) {
+    uint edges;
+    if (!findRegion(1, region, edges)) {
         return;
     }
     int thread = int(gl_LocalInvocationIndex);

@@ -248,7 +248,8 @@ PackedQuad loadRegion(ivec2 region, int thread, ivec2 texel) {
 
 void main() {
     ivec2 region;
-    if (!findRegion(0, region)) {
+    uint edges;
+    if (!findRegion(0, region, edges)) {
         return;
     }
     int thread = int(gl_LocalInvocationIndex);
@@ -259,6 +260,10 @@ void main() {
     barrier();
     PackedQuad packed = loadRegion(region, thread, texel);
     barrier();
+    ivec2 part = 2 * texel / partSize;
+    if ((edges >> (part.x + 2 * part.y) & 1u) != 0u) {
+        return;
+    }
     ivec2 first = region + 2 * texel;
     uint scattering = 0u; // bits of the pixels that have a material
     [[unroll]] for (int i = 0; i < 4; ++i) {

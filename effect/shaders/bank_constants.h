@@ -50,6 +50,9 @@ const float bankLeastWeight = 1e-6f;
 const float bankSmoothDepth = 3.0f;
 // The same beside a pixel that is on no surface, where surfaces curve away. With 3: −1 to −5 dB on the models.
 const float bankSmoothHoleDepth = 0.5f;
+// A region of 32x16 px of whose four parts more than these are not smooth is combined as four edge regions; else those parts
+// are, and the rest is a smooth one that leaves them out, which costs as much as an edge region.
+const int bankMostEdgeParts = 2;
 // A pixel's own light weighs at least this: where hardly any of the other kernels is on its surface, its light stays.
 // Without, such a pixel can be black.
 const float bankLeastIdentity = 1.0f / 1024.0f;

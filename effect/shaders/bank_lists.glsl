@@ -6,7 +6,8 @@ shared uint listed[2]; // regions of this workgroup on each list; then where the
 // Makes room for `count` regions at the end of a list, and its pipeline's dispatch cover them. Returns the first's place.
 uint extendList(int kind, uint count) {
     ivec2 regions = regionCount();
-    if (uint(regions.x * regions.y) <= bankDispatchWidth) { // one row: its width counts
+    uint most = uint(regions.x * regions.y) * (kind == 0 ? 1u : 4u);
+    if (most <= bankDispatchWidth) { // one row: its width counts
         return atomicAdd(dispatches[kind].x, count);
     }
     uint first = atomicAdd(dispatches[kind].count, count);
@@ -17,18 +18,24 @@ uint extendList(int kind, uint count) {
     return first;
 }
 
-// The bits of tileRough that count for a region, of its own tiles and of what lies beside it in those around. `place`:
-// in tiles, from the region's first.
-uint roughBeside(ivec2 place) {
-    uint columns = place.x < 0 ? 0x124u : place.x > 1 ? 0x049u : 0x1ffu;
-    uint rows = place.y < 0 ? 0x1c0u : place.y > 0 ? 0x007u : 0x1ffu;
-    return (columns & rows) << 1;
+// The bits of tileRough that count for the upper or lower part of a tile, of a tile that lies so far from there: in the tile
+// itself half of its blocks and the row next to them, in those around what lies beside that.
+uint roughBeside(ivec2 tile, bool lower) {
+    uint columns = tile.x == 0 ? 7u : tile.x == -1 ? 4u : tile.x == 1 ? 1u : 0u;
+    uint rows[3] = lower ? uint[](0u, 0111100u, 1u) : uint[](0100000u, 01111u, 0u); // an octal digit each
+    return rows[tile.y + 1] * columns << 1;
 }
 
-// Whether a region holds pixels with a material, and whether it is rough: 0 smooth, 1 edge, -1 neither.
-int kindOfRegion(ivec2 region) {
+// What combines a region: bits of its parts that are edge regions, and whether the rest is a smooth one. Neither where no
+// pixel has a material.
+struct Combination {
+    uint edges;
+    bool smoothRest;
+};
+
+Combination combinationOf(ivec2 region) {
     ivec2 first = region * ivec2(2, 1);
-    uint steps = 0u;
+    uint rough = 0u;
     uint occupied = 0u;
     [[unroll]] for (int i = 0; i < 12; ++i) {
         ivec2 place = ivec2(i % 4, i / 4) - 1;
@@ -37,10 +44,14 @@ int kindOfRegion(ivec2 region) {
         uint entry = inside ? tileEntries[tileIndex(tile)] : 0u;
         bool own = place.y == 0 && (place.x == 0 || place.x == 1);
         occupied |= own ? entry & tileOccupied : 0u;
-        steps |= entry & roughBeside(place);
+        [[unroll]] for (int part = 0; part < 4; ++part) {
+            rough |= (entry & roughBeside(place - ivec2(part & 1, 0), part > 1)) != 0u ? 1u << part : 0u;
+        }
     }
     // Where materials are separate, pixels are combined tap by tap.
-    return occupied == 0u ? -1 : separateMaterials || steps != 0u ? 1 : 0;
+    bool noneSmooth = separateMaterials || bitCount(rough) > bankMostEdgeParts;
+    uint edges = noneSmooth ? 15u : rough;
+    return occupied == 0u ? Combination(0u, false) : Combination(edges, !noneSmooth);
 }
 
 // A region a thread; `group`: of those that list.
@@ -52,17 +63,20 @@ void listRegions(int group, int thread) {
     ivec2 regions = regionCount();
     int index = group * threads + thread;
     ivec2 region = ivec2(index % regions.x, index / regions.x);
-    int kind = region.y < regions.y ? kindOfRegion(region) : -1;
-    uint place = 0u;
-    if (kind >= 0) {
-        place = atomicAdd(listed[kind], 1u);
-    }
+    Combination combination = region.y < regions.y ? combinationOf(region) : Combination(0u, false);
+    uint smoothPlace = combination.smoothRest ? atomicAdd(listed[0], 1u) : 0u;
+    uint edgePlace = combination.edges != 0u ? atomicAdd(listed[1], uint(bitCount(combination.edges))) : 0u;
     barrier();
     if (thread < 2) {
         listed[thread] = extendList(thread, listed[thread]);
     }
     barrier();
-    if (kind >= 0) {
-        tileEntries[regionList(kind) + int(listed[kind] + place)] = uint(region.x | region.y << 16);
+    if (combination.smoothRest) {
+        tileEntries[regionList(0) + int(listed[0] + smoothPlace)] = listEntry(2 * region, combination.edges);
+    }
+    int place = regionList(1) + int(listed[1] + edgePlace);
+    for (uint left = combination.edges; left != 0u; left &= left - 1u) {
+        int part = findLSB(left);
+        tileEntries[place++] = listEntry(2 * region + ivec2(part & 1, part >> 1), 0u);
     }
 }

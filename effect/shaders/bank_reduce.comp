@@ -157,7 +157,7 @@ void emptyTile(ivec2 tile, ivec2 texel, int thread) {
 
 void clearDispatches() {
     dispatches[0] = BankDispatch(0u, 1u, 1u, 0u);
-    dispatches[1] = BankDispatch(0u, 1u, edgeParts, 0u);
+    dispatches[1] = BankDispatch(0u, 1u, 1u, 0u);
 }
 
 void main() {

@@ -6,13 +6,12 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 const int threads = 128;
-// A thread combines a block of pixels with this side. In edge regions it is one pixel, and four workgroups share what is
-// one region on the list: there are few such regions, and long threads would leave multiprocessors idle.
+// A thread combines a block of pixels with this side. In edge regions it is one pixel: there are few such regions, and long
+// threads would leave multiprocessors idle.
 const int ownSide = isEdge ? 1 : 2;
 const int ownPixels = ownSide * ownSide;
-const ivec2 listedSize = ivec2(32, 16);          // px, of a region on the list
-const ivec2 regionSize = ownSide * ivec2(16, 8); // px
-const ivec2 fineSize = regionSize / 2;           // texels of level 1
+const ivec2 regionSize = ownSide * partSize; // px
+const ivec2 fineSize = regionSize / 2;       // texels of level 1
 // Level 1 is loaded as reduced, with two texels around, for its 3x3 mean and to read that bilinearly.
 const int finePitch = fineSize.x + 4;
 const int fineCount = finePitch * (fineSize.y + 4);
@@ -57,15 +56,16 @@ shared float secondDepths[isEdge && secondLevels > 0 ? secondCount : 1];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
-// The region that this workgroup combines, in px of the render area; false where there is none.
-bool findRegion(int kind, out ivec2 region) {
+// The region that this workgroup combines, in px of the render area, without the parts that are edge regions, a bit each;
+// false where there is none.
+bool findRegion(int kind, out ivec2 region, out uint edges) {
     uint entry = gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x;
     if (gl_NumWorkGroups.y > 1u && entry >= dispatches[kind].count) { // the last row is not full
         return false;
     }
     uint place = tileEntries[regionList(kind) + int(entry)];
-    ivec2 part = ivec2(gl_WorkGroupID.z & 1u, gl_WorkGroupID.z >> 1);
-    region = ivec2(place & 0xffffu, place >> 16) * listedSize + part * regionSize;
+    region = ivec2(place & 0xfffu, place >> 12 & 0xfffu) * partSize;
+    edges = place >> 24;
     return true;
 }
 

@@ -8,8 +8,9 @@
 namespace nacre::tests {
 namespace {
 
-constexpr int tileSize = 32;
-constexpr int regionHeight = 16; // of pass C's workgroups, which are as wide as a tile, px
+constexpr int tileSize = 32;  // px, as in effect/scatter_bank.cpp
+constexpr int partWidth = 16; // of pass C's edge regions, px; its smooth ones are 2x2 of them
+constexpr int partHeight = 8;
 
 // What a 2x2 block of texels becomes: those of one surface. Levels that keep a second surface have up to eight.
 struct Block {
@@ -109,21 +110,10 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
     for (int level = 2; level <= bankLevels; ++level) {
         blurLevel(level);
     }
-    for (int tileY = 0; tileY < tilesY_; ++tileY) {
-        for (int tileX = 0; tileX < tilesX_; ++tileX) {
-            const bool empty = raw_[5].at(tileX, tileY)->mass <= 0;
-            for (const int half : {0, 1}) {
-                regionKinds_.push_back(empty ? 0 : isSmooth(tileX, tileY, half) ? 1 : 2);
-            }
-        }
-    }
     result_ = scene.irradiance;
-    for (int y = 0; y < scene.height; ++y) {
-        for (int x = 0; x < scene.width; ++x) {
-            const int tile = y / tileSize * tilesX_ + x / tileSize;
-            if (raw_[0].at(x, y)->mass > 0) {
-                combinePixel(x, y, regionKinds_[2 * tile + y / regionHeight % 2] == 1);
-            }
+    for (int y = 0; y < scene.height; y += 2 * partHeight) {
+        for (int x = 0; x < scene.width; x += 2 * partWidth) {
+            combineRegion(x, y);
         }
     }
 }
@@ -137,12 +127,6 @@ void BankTwin::weighByArea(int x, int y) {
     for (double& value : pixel.light) {
         value *= pixel.area;
     }
-}
-
-double BankTwin::smoothShare() const {
-    const auto smooth = std::count(regionKinds_.begin(), regionKinds_.end(), 1);
-    const auto edge = std::count(regionKinds_.begin(), regionKinds_.end(), 2);
-    return static_cast<double>(smooth) / static_cast<double>(std::max<std::ptrdiff_t>(smooth + edge, 1));
 }
 
 bool BankTwin::hasSeconds(int level) const {
@@ -256,20 +240,32 @@ bool BankTwin::isRough(int blockX, int blockY) const {
     return raw_[1].at(blockX, blockY)->dropped || longest > limit * texelWidth(0, farthest);
 }
 
-// No block of a tile's upper or lower half, or beside it, is rough.
-bool BankTwin::isSmooth(int tileX, int tileY, int half) const {
-    const int width = tileSize / 2;
-    const int height = regionHeight / 2;
-    const int firstX = tileX * width;
-    const int firstY = (2 * tileY + half) * height;
-    for (int y = firstY - 1; y <= firstY + height; ++y) {
-        for (int x = firstX - 1; x <= firstX + width; ++x) {
+// Whether a block of a part, or one beside it, is rough.
+bool BankTwin::isEdgePart(int firstX, int firstY) const {
+    for (int y = firstY / 2 - 1; y <= (firstY + partHeight) / 2; ++y) {
+        for (int x = firstX / 2 - 1; x <= (firstX + partWidth) / 2; ++x) {
             if (raw_[1].at(x, y) != nullptr && isRough(x, y)) {
-                return false;
+                return true;
             }
         }
     }
-    return settings_.smoothTiles;
+    return !settings_.smoothTiles;
+}
+
+// Combines the pixels of a smooth region, and of its parts that are edge regions.
+void BankTwin::combineRegion(int firstX, int firstY) {
+    std::array<bool, 4> edges{};
+    for (int part = 0; part < 4; ++part) {
+        edges[part] = isEdgePart(firstX + part % 2 * partWidth, firstY + part / 2 * partHeight);
+    }
+    const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > constants::bankMostEdgeParts;
+    for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); ++y) {
+        for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); ++x) {
+            if (raw_[0].at(x, y)->mass > 0) {
+                combinePixel(x, y, !noneSmooth && !edges[(x - firstX) / partWidth + 2 * ((y - firstY) / partHeight)]);
+            }
+        }
+    }
 }
 
 } // namespace nacre::tests

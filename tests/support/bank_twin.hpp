@@ -49,8 +49,6 @@ public:
     const TwinLevel<BlurredTexel>& blurred(int level) const { return blurred_[level]; }
     /// Pass C: the scattered irradiance of every pixel.
     const std::vector<Rgb>& result() const { return result_; }
-    /// Share of the 32x16 px regions in tiles with subsurface pixels that are combined as smooth.
-    double smoothShare() const;
 
 private:
     struct Accumulator;
@@ -67,7 +65,8 @@ private:
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
     bool isRough(int blockX, int blockY) const;
-    bool isSmooth(int tileX, int tileY, int half) const;
+    bool isEdgePart(int firstX, int firstY) const;
+    void combineRegion(int firstX, int firstY);
     void combinePixel(int x, int y, bool smooth);
     void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
     std::array<double, 2> slopeFalloffs(int x, int y) const;
@@ -89,7 +88,6 @@ private:
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurredSeconds_;
     int tilesX_ = 0;
     int tilesY_ = 0;
-    std::vector<int> regionKinds_; ///< two a tile, 32x16 px: 0 empty, 1 smooth, 2 edge
     std::vector<Rgb> result_;
 };
 
