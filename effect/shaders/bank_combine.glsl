@@ -108,20 +108,12 @@ vec4 levelLight(uvec2 words) {
     return vec4(light.rgb, abs(light.a));
 }
 
-// Texels of a level, weighted by place and depth, as a surface sees them.
-struct Taps {
-    vec4 light; // w: mass
-    float total;
-    float away; // mm, how far behind that surface theirs are
-};
-
-// A level's share of a pixel. On a slope the taps' weighted mean depth is the pixel's; where it is away from there, they
-// stand on another surface, and the share falls. `scale`: levelScale.
-void addTaps(inout Sum sum, vec3 weight, Taps taps, float scale) {
-    float normalization = 1.0 / max(taps.total, bankLeastWeight);
-    float away = taps.away * normalization;
-    float share = depthWeight(away, scale * (levelDepthVariance / levelAwayVariance));
-    add(sum, weight, taps.light * (share * normalization));
+// What a level's weighted taps are multiplied by: one over their total weight, and a share of the pixel. On a slope the taps'
+// weighted mean depth is the pixel's; where it is away from there, they stand on another surface, and the share falls.
+// `away`: weighted sum of how far the taps are behind the pixel, mm. `scale`: levelScale.
+float levelShare(float total, float away, float scale) {
+    float normalization = 1.0 / max(total, bankLeastWeight);
+    return normalization * depthWeight(away * normalization, scale * (levelDepthVariance / levelAwayVariance));
 }
 
 // Writes those of the thread's pixels that are members of a group, which share a material. `local`: the first. The light

@@ -126,6 +126,13 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
     addSurface(sum, weight, lightAndArea);
 }
 
+// Texels of a level, weighted by place and depth, as a pixel sees them.
+struct Taps {
+    vec4 light; // w: mass
+    float total;
+    float away; // mm, how far they are behind the pixel
+};
+
 // `distance`: how far the tap is behind the pixel. `scale`: levelScale.
 void addTap(inout Taps taps, float share, uvec2 light, float distance, float scale) {
     float weight = share * depthWeight(distance, scale);
@@ -150,7 +157,7 @@ void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, floa
             addTap(taps, share, secondLights[place], secondDepths[place] - depth, scale);
         }
     }
-    addTaps(sum, weight, taps, scale);
+    add(sum, weight, taps.light * levelShare(taps.total, taps.away, scale));
 }
 
 // Adds a level with bilinear weights.

@@ -117,10 +117,6 @@ void addFiltered(inout Sum sums[4], vec3 weight, Light filtered[4]) {
     }
 }
 
-Taps mixTaps(Taps a, Taps b, float fraction) {
-    return Taps(mix(a.light, b.light, fraction), mix(a.total, b.total, fraction), mix(a.away, b.away, fraction));
-}
-
 // Adds a level with bilinear weights, from 2 on, where the quad's pixels lie between the same four texels.
 void addPlainLevel(inout Sum sums[4], vec3 weight, Corner corner) {
     int below = corner.place + levelPitch;
@@ -139,22 +135,29 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, Corner corner) {
     }
 }
 
-// The same with depth weights, which the quad's pixels share.
+// The same with depth weights, and a share of the level, that the quad's pixels have in common: those at its middle.
 void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth) {
     float scale = levelScale(level, depth);
-    Taps taps[4];
+    vec2 middle = corner.fraction + 0.5 * corner.step;
+    vec4 lights[4];
+    float total = 0.0;
+    float away = 0.0;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = corner.place + (i & 1) + (i >> 1) * levelPitch;
         float distance = levelDepths[place] - depth;
         float tapWeight = depthWeight(distance, scale);
-        taps[i] = Taps(tapWeight * levelLight(levelLights[place]), tapWeight, tapWeight * distance);
+        lights[i] = tapWeight * levelLight(levelLights[place]);
+        tapWeight *= ((i & 1) == 0 ? 1.0 - middle.x : middle.x) * (i < 2 ? 1.0 - middle.y : middle.y);
+        total += tapWeight;
+        away += tapWeight * distance;
     }
+    weight *= levelShare(total, away, scale);
     vec2 fraction = corner.fraction;
     [[unroll]] for (int x = 0; x < 2; ++x) {
-        Taps upper = mixTaps(taps[0], taps[1], fraction.x);
-        Taps lower = mixTaps(taps[2], taps[3], fraction.x);
-        addTaps(sums[x], weight, mixTaps(upper, lower, fraction.y), scale);
-        addTaps(sums[x + 2], weight, mixTaps(upper, lower, fraction.y + corner.step), scale);
+        vec4 upper = mix(lights[0], lights[1], fraction.x);
+        vec4 slope = mix(lights[2], lights[3], fraction.x) - upper;
+        add(sums[x], weight, upper + fraction.y * slope);
+        add(sums[x + 2], weight, upper + (fraction.y + corner.step) * slope);
         fraction.x += corner.step;
     }
 }

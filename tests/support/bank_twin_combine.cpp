@@ -169,8 +169,12 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
     const double positionY = (y + 0.5) / (1 << level) - 0.5;
     const int firstX = static_cast<int>(std::floor(positionX));
     const int firstY = static_cast<int>(std::floor(positionY));
-    const double fractionX = positionX - firstX;
-    const double fractionY = positionY - firstY;
+    const auto placeWeight = [&](int i, double atX, double atY) {
+        return (i % 2 == 1 ? atX - firstX : 1 - atX + firstX) * (i / 2 % 2 == 1 ? atY - firstY : 1 - atY + firstY);
+    };
+    // What the level's share is taken at: in smooth regions the middle of the quad.
+    const double middleX = from.smooth ? (x / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionX;
+    const double middleY = from.smooth ? (y / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionY;
     Rgb light{};
     double mass = 0;
     double total = 0;
@@ -179,16 +183,17 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
         const int tapY = std::clamp(firstY + i / 2 % 2, 0, blurred.height - 1);
         const BlurredTexel& tap = *(i < 4 ? blurred : blurredSeconds_[level]).at(tapX, tapY);
-        double tapWeight = (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 % 2 == 1 ? fractionY : 1 - fractionY);
         const double difference = tap.depth - from.depth;
         const double q = difference * difference / (depthVariance * width * width);
-        tapWeight *= tap.depth > 0 ? falloff(q) : 0;
+        const double depthWeight = tap.depth > 0 ? falloff(q) : 0;
+        const double tapWeight = placeWeight(i, positionX, positionY) * depthWeight;
+        const double middleWeight = placeWeight(i, middleX, middleY) * depthWeight;
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += tapWeight * tap.light[channel];
         }
         mass += tapWeight * tap.mass;
-        total += tapWeight;
-        away += tapWeight * difference;
+        total += middleWeight;
+        away += middleWeight * difference;
     }
     total = std::max<double>(total, constants::bankLeastWeight);
     const double distance = away / total / width;
