@@ -19,9 +19,9 @@ const std::array<IntermediateInfo, intermediateCount> intermediates{{
     {.name = "nacre bank blurred pyramid", .bytes = bankBlurredBytes},
     {.name = "nacre bank borrowed surfaces", .bytes = bankBlurredBytes},
     {.name = "nacre bank quads", .bytes = bankQuadBytes},
-    {.name = "nacre bank areas", .bytes = bankAreaBytes},
+    {.name = "nacre bank areas", .bytes = bankQuadBytes},
     {.name = "nacre bank tiles", .bytes = bankTileBytes},
-    {.name = "nacre bank materials", .bytes = bankQuadBytes},
+    {.name = "nacre bank materials", .bytes = bankMaterialBytes},
     {.name = "nacre bank second surfaces", .bytes = bankSecondBytes},
 }};
 

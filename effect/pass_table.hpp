@@ -71,7 +71,7 @@ struct Pass {
 VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent);
-VkDeviceSize bankAreaBytes(VkExtent2D maxExtent);
+VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent);
 VkDeviceSize bankSecondBytes(VkExtent2D maxExtent);
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent);
 /// Fills ScatterParameters::bankLevels for a render area (scatter_bank.cpp).

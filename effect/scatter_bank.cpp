@@ -184,10 +184,10 @@ VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
     return sizeof(uvec2) * (texelCount(maxExtent) - VkDeviceSize{finest.width} * finest.height);
 }
 
-// One for each texel of level 1.
+// One word for each texel of level 1.
 VkDeviceSize bankQuadBytes(VkExtent2D maxExtent) {
     const VkExtent2D finest = levelExtent(maxExtent, 1);
-    return VkDeviceSize{sizeof(uvec2)} * finest.width * finest.height;
+    return VkDeviceSize{sizeof(std::uint32_t)} * finest.width * finest.height;
 }
 
 // Of the levels that keep one, finest first.
@@ -200,8 +200,8 @@ VkDeviceSize bankSecondBytes(VkExtent2D maxExtent) {
     return 3 * sizeof(uvec2) * texels;
 }
 
-VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
-    return bankQuadBytes(maxExtent) / sizeof(uvec2) * sizeof(std::uint32_t);
+VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent) {
+    return 2 * bankQuadBytes(maxExtent);
 }
 
 // The dispatches, then an entry for every tile, of which a cell has four, and room for all regions on either list: two

@@ -20,7 +20,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std43
     uvec2 borrowedSurfaces[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) BANK_ACCESS buffer BankQuads {
-    uvec2 quads[]; // 2x2 px each, as level 1 lies: see Quad
+    uint quads[]; // 2x2 px each, as level 1 lies: packQuad
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std430) BANK_ACCESS buffer BankMaterials {
     uvec2 quadMaterials[]; // as quads: of the four pixels, only where they differ
@@ -100,23 +100,23 @@ uvec2 packBlurred(BlurredTexel texel) {
     return uvec2(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)) | sign);
 }
 
-// What the combination knows of 2x2 px. Where one material is all of theirs it stands in the second word, above the
-// weights beside the middle of the full-resolution 3x3 in x and y, 7 bits each.
-struct Quad {
-    float depth;
-    vec2 beside;
-    uvec2 materials; // of the four pixels, 16 bits each
-};
+const uint mixedBit = 0x8000u; // of a quad: its materials are in quadMaterials
 
-const uint mixedBit = 0x8000u; // the materials are in quadMaterials
-
-// `words`: quads[index].
-uvec2 materialsOf(uvec2 words, int index) {
-    return (words.y & mixedBit) != 0u ? quadMaterials[index] : uvec2((words.y >> 16) * 0x10001u);
+// What the combination knows of 2x2 px beside their texel of level 1: the weights beside the middle of the full-resolution
+// 3x3 in x and y, 7 bits each, and above them the material, where one is all of theirs.
+uint packQuad(vec2 beside, uvec2 materials) {
+    bool mixed = materials != uvec2((materials.x & 0xffffu) * 0x10001u);
+    uvec2 weights = uvec2(254.0 * beside + 0.5);
+    return weights.x | weights.y << 7 | (mixed ? mixedBit : materials.x << 16);
 }
 
-Quad unpackQuad(uvec2 words, uvec2 materials) {
-    return Quad(uintBitsToFloat(words.x), vec2(words.y & 127u, words.y >> 7 & 127u) / 254.0, materials);
+vec2 besideOf(uint quad) {
+    return vec2(quad & 127u, quad >> 7 & 127u) / 254.0;
+}
+
+// Of the four pixels of quads[index], 16 bits each.
+uvec2 materialsOf(uint quad, int index) {
+    return (quad & mixedBit) != 0u ? quadMaterials[index] : uvec2((quad >> 16) * 0x10001u);
 }
 
 // The material of one of a quad's pixels, which is at an even or odd place in x and y.
@@ -266,10 +266,11 @@ bool givesLight(uint from, uint to) {
     return !separateMaterials || exchanges(from, to);
 }
 
+const float finestSeparation = secondLevels > 0 ? bankFinestSeparation : bankSurfaceSeparation;
+
 // Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
 float separationAt(int level, float nearest) {
-    float separation = level == 1 && secondLevels > 0 ? bankFinestSeparation : bankSurfaceSeparation;
-    return separation * texelWidth(level, nearest);
+    return (level == 1 ? finestSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
 }
 
 // Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.
@@ -287,7 +288,7 @@ const vec2 noRange = vec2(1e30, 0.0);
 // mass; and of those, where materials are separate, the ones that exchange light with the heaviest.
 bvec4 chooseSurface(RawTexel texels[4], int level) {
     vec2 range = depthRange(texels, noRange);
-    float separation = bankSurfaceSeparation * texelWidth(level, range.x);
+    float separation = separationAt(level, range.x);
     bvec4 front;
     bvec4 back;
     float balance = 0.0; // 0 where all is one surface, which is both

@@ -3,6 +3,7 @@
 
 // 2x2 px, row by row.
 struct Block {
+    bool occupied; // whether some pixel has an id
     uint material[4];
     float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
     vec3 light[4];  // irradiance; from decodeBlock on as it enters
@@ -48,13 +49,14 @@ Block fetchBlock(ivec2 first) {
     uint id[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 pixel = ownPixel(first + offsetOf(i));
-        id[i] = texelFetch(materialIdImage, pixel, 0).r;
+        id[i] = isBeforeEnd(first + offsetOf(i)) ? texelFetch(materialIdImage, pixel, 0).r : 0u;
         block.depth[i] = texelFetch(depthImage, pixel, 0).r;
         block.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        block.material[i] = isBeforeEnd(first + offsetOf(i)) ? materialOfId(id[i]) : 0u;
+        block.material[i] = materialOfId(id[i]);
     }
+    block.occupied = (id[0] | id[1] | id[2] | id[3]) != 0u;
     return block;
 }
 
@@ -102,7 +104,8 @@ float longestStep(float before, float first, float second, float after) {
     return max(max(abs(first - before), abs(second - first)), abs(after - second));
 }
 
-// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
+// Whether a block and the pixels beside it are one surface, without holes or separate materials: no step from pixel to
+// pixel is so long that the depths of the block could be further apart than separationAt.
 bool isPlain(Block block, Sides sides, float width) {
     vec2 leastSides = min(min(sides.left, sides.right), min(sides.above, sides.below));
     float leastOwn = min(min(block.depth[0], block.depth[1]), min(block.depth[2], block.depth[3]));
@@ -110,7 +113,7 @@ bool isPlain(Block block, Sides sides, float width) {
                             longestStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
                         max(longestStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
                             longestStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
-    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= bankPlainStep * width && !separateMaterials;
+    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= finestSeparation * width && !separateMaterials;
 }
 
 // Areas of a plain block's pixels: as areaOf, where every depth goes on to both sides.

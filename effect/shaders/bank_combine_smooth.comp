@@ -193,24 +193,25 @@ ivec2 fineRingPosition(int index) {
                       : ivec2((beyond & 3) < 2 ? (beyond & 3) - 2 : (beyond & 3) + fineSize.x - 2, beyond >> 2);
 }
 
-// The words of a thread's quad and the materials of its pixels, not unpacked before they are needed: they take less room so.
-struct PackedQuad {
-    uvec2 words;
-    uvec2 materials;
+// A thread's quad, not unpacked before it is needed: it takes less room so.
+struct Quad {
+    uint word; // packQuad
+    uvec2 materials; // materialsOf
+    float depth;
 };
 
 // Whether the material of one of a quad's pixels, counted row by row, is this one.
-bool hasMaterial(PackedQuad quad, int i, uint material) {
+bool hasMaterial(Quad quad, int i, uint material) {
     uint difference = (i < 2 ? quad.materials.x : quad.materials.y) ^ material * 0x10001u;
     return (difference & ((i & 1) == 0 ? 0xffffu : 0xffff0000u)) == 0u;
 }
 
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
-PackedQuad loadRegion(ivec2 region, int thread, ivec2 texel) {
+Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
     int fine = texelIndex(1, (region >> 1) + texel);
-    uvec2 quadWords = quads[fine];
-    uvec2 fineLight = rawTexels[fine].xy;
+    uint quadWord = quads[fine];
+    uvec4 fineTexel = rawTexels[fine];
     ivec2 first = region + 2 * texel;
     vec3 lights[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -224,14 +225,14 @@ PackedQuad loadRegion(ivec2 region, int thread, ivec2 texel) {
     uvec2 coarseSurface = rawTexels[coarse.index].zw;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel = fetchPixel(region, ring);
-    PackedQuad quad = PackedQuad(quadWords, materialsOf(quadWords, fine));
+    Quad quad = Quad(quadWord, materialsOf(quadWord, fine), uintBitsToFloat(fineTexel.z));
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
             ivec2 pixel = min(first + ivec2(i & 1, i >> 1), last);
             lights[i] *= albedoBefore(pixel + view.areaOffset, pixelMaterial(quad.materials, ivec2(i & 1, i >> 1)));
         }
     }
-    storeFine(texel, fineLight);
+    storeFine(texel, fineTexel.xy);
     if (ringThread < fineRingCount) {
         storeFine(fineRing, ringLight);
     }
@@ -261,7 +262,7 @@ void main() {
         roughLevels = 0u;
     }
     barrier();
-    PackedQuad packed = loadRegion(region, thread, texel);
+    Quad quad = loadRegion(region, thread, texel);
     barrier();
     ivec2 part = 2 * texel / partSize;
     if ((edges >> (part.x + 2 * part.y) & 1u) != 0u) {
@@ -270,24 +271,24 @@ void main() {
     ivec2 first = region + 2 * texel;
     uint scattering = 0u; // bits of the pixels that have a material
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        scattering |= hasMaterial(packed, i, 0u) ? 0u : 1u << i;
+        scattering |= hasMaterial(quad, i, 0u) ? 0u : 1u << i;
     }
     // One round for every material in the quad.
     for (uint left = scattering; left != 0u;) {
         int next = findLSB(left);
-        uint material = pixelMaterial(packed.materials, ivec2(next & 1, next >> 1));
+        uint material = pixelMaterial(quad.materials, ivec2(next & 1, next >> 1));
         bvec4 members;
         [[unroll]] for (int i = 0; i < 4; ++i) {
-            members[i] = hasMaterial(packed, i, material);
+            members[i] = hasMaterial(quad, i, material);
             left &= members[i] ? ~(1u << i) : ~0u;
         }
-        Quad quad = unpackQuad(packed.words, packed.materials);
+        vec2 beside = besideOf(quad.word);
         Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
         Light pixels[4];
-        filterPixels(pixels, texel, quad.beside);
+        filterPixels(pixels, texel, beside);
         Light finest[4] = pixels;
         if ((usedKernels(mixture) & finestKernel) != 0u) {
-            filterFinestLevel(finest, texel, quad.beside);
+            filterFinestLevel(finest, texel, beside);
         }
         Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
         addIdentity(sums, mixture, texel);

@@ -21,10 +21,6 @@ const int bankSecondLevels = 3;
 // Level 1's separation with second surfaces: pixels are so narrow that a texel on a steep surface had better be two. With
 // 3: the mean is the same, −0.1 to −0.9 dB on the Stanford dragon.
 const float bankFinestSeparation = 2.0f;
-// Reduction: a 2x2 block is plain, and reduced without asking for surfaces, when no depth step from pixel to pixel, in it
-// and beside it, is longer than this many pixel widths. Up to 2 it can hold one surface only, and its pixels' areas are
-// those that asking gives. With 1.5: 2 us more on tilted sheets (1920x1080, NVIDIA H200).
-const float bankPlainStep = 2.0f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). With 2: +0.2 dB, but −0.3 to −0.9 dB on the models; with 1: −0.4 dB.
 const float bankBlurDepthVariance = 1.4f;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.

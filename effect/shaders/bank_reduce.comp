@@ -19,7 +19,7 @@ shared float wholeDepths[4];
 // Of the tile's pixels and one around, mm; 0 where none receives light.
 const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
-shared uint occupied; // whether some pixel has a material
+shared uint occupied; // whether some pixel has an id
 shared uint roughness; // tileRough of the tile's blocks, and notFull
 const uint notFull = 1u; // a pixel of some block is on no surface, or on another than the block's
 
@@ -122,13 +122,11 @@ void reduceWholeTile(ivec2 tile, int thread) {
     }
 }
 
-void storeQuad(int index, Quad quad) {
-    bool mixed = quad.materials != uvec2((quad.materials.x & 0xffffu) * 0x10001u);
-    uvec2 beside = uvec2(254.0 * quad.beside + 0.5);
-    quads[index] = uvec2(floatBitsToUint(quad.depth),
-                         beside.x | beside.y << 7 | (mixed ? mixedBit : quad.materials.x << 16));
-    if (mixed) {
-        quadMaterials[index] = quad.materials;
+void storeQuad(int index, vec2 slope, uvec2 materials) {
+    uint quad = packQuad(weightsBeside(slope), materials);
+    quads[index] = quad;
+    if ((quad & mixedBit) != 0u) {
+        quadMaterials[index] = materials;
     }
 }
 
@@ -146,7 +144,7 @@ void emptyTile(ivec2 tile, ivec2 texel, int thread) {
     }
     int index = texelIndex(1, tile * side + texel);
     rawTexels[index] = uvec4(0u);
-    quads[index] = uvec2(0u);
+    quads[index] = 0u;
     for (int level = 2; level <= rawLevels; ++level) {
         int width = tileSize >> level;
         if (thread < width * width) {
@@ -173,7 +171,7 @@ void main() {
     // Everything is fetched before anything is asked, so that the fetches overlap.
     Block block = fetchBlock(first);
     RingPixel ring = fetchRing(tile * tileSize, thread);
-    if ((block.material[0] | block.material[1] | block.material[2] | block.material[3]) != 0u) {
+    if (block.occupied) {
         atomicOr(occupied, 1u);
     }
     barrier();
@@ -197,8 +195,8 @@ void main() {
     Reduced reduced = reduceBlock(block, place, texel);
     storeSurfaces(Surfaces(reduced.texel, reduced.second), thread, 1, tile * side + texel);
     int index = texelIndex(1, tile * side + texel);
-    storeQuad(index, Quad(reduced.texel.depth, weightsBeside(reduced.slope),
-                          uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16)));
+    storeQuad(index, reduced.slope,
+              uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16));
     quadAreas[index] = packAreas(reduced.areas);
     barrier();
     if (thread == 0) {

@@ -150,8 +150,8 @@ void storePixel(int index, vec3 light, float depth, float area, uint material) {
 // A pixel at any place of the region or around it, or the one of the image that is nearest.
 struct Fetched {
     ivec2 local;
-    int quad;
-    uvec2 quadWords;
+    int quad; // its place
+    uint quadWord;
     uint areas; // of the quad's pixels
     vec3 light;
     float depth; // along the ray, 0 where nothing was drawn
@@ -167,7 +167,7 @@ Fetched fetchPixel(ivec2 region, ivec2 place) {
 
 // Returns its material, 0 outside the image.
 uint storeFetched(ivec2 region, ivec2 place, Fetched fetched) {
-    uint material = pixelMaterial(materialsOf(fetched.quadWords, fetched.quad), fetched.local);
+    uint material = pixelMaterial(materialsOf(fetched.quadWord, fetched.quad), fetched.local);
     material = fetched.local == region + place ? material : 0u;
     vec3 light = fetched.light;
     if (hasFlag(flagAlbedo)) {
