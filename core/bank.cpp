@@ -75,6 +75,7 @@ BankWeights projectOnBank(const Profile& profile, double pixelsPerMillimeter) {
         }
         Vector mixture{1};
         solveMixture(sums, mixture);
+        leaveOutSmallShares(sums, mixture);
         for (int kernel = 0; kernel < bankSize; ++kernel) {
             weights[kernel][channel] = mixture[kernel];
         }
@@ -93,8 +94,10 @@ BankTable::BankTable(const Profile& profile) : halves_(binCount * halvesPerBin) 
             const int first = (binCount - 1 - bin) * samplesPerBin;
             const Vector sums = rightHandSide(std::span(samples).subspan(first, reachSamples));
             solveMixture(sums, mixture);
+            Vector shares = mixture;
+            leaveOutSmallShares(sums, shares);
             for (int kernel = 0; kernel < bankSize; ++kernel) {
-                halves_[bin * halvesPerBin + 3 * kernel + channel] = toHalf(static_cast<float>(mixture[kernel]));
+                halves_[bin * halvesPerBin + 3 * kernel + channel] = toHalf(static_cast<float>(shares[kernel]));
             }
         }
     }

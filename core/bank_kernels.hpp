@@ -24,8 +24,11 @@ struct BankForm {
 const BankForm& bankForm();
 
 /// The mixture x minimising xᵀ·gram·x − 2·rightHandSideᵀ·x, with the bank's gram, over x ≥ 0, Σx = 1 (active set, at most
-/// a few 8x8 solves); kernels that would have less than bankLeastShare are left out, the smallest first. `x` holds a
-/// feasible start, such as the mixture of a similar problem, and receives the result.
+/// a few 8x8 solves). `x` holds a feasible start, such as the mixture of a similar problem, and receives the result.
 void solveMixture(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x);
+
+/// Leaves out of such a mixture the kernels that have less than bankLeastShare, the smallest first, and solves for the
+/// others' shares again.
+void leaveOutSmallShares(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x);
 
 } // namespace nacre

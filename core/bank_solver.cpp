@@ -49,11 +49,13 @@ void solveWithin(const Problem::Matrix& gram, const Problem::Vector& rightHandSi
 } // namespace
 
 void solveMixture(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x) {
-    const Problem::Matrix& gram = bankForm().gram;
-    Problem(gram, rightHandSide).solve(x);
+    Problem(bankForm().gram, rightHandSide).solve(x);
+}
+
+void leaveOutSmallShares(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x) {
     for (int kernel = smallestShare(x); kernel >= 0; kernel = smallestShare(x)) {
         x[kernel] = 0;
-        solveWithin(gram, rightHandSide, x);
+        solveWithin(bankForm().gram, rightHandSide, x);
     }
 }
 

@@ -202,13 +202,13 @@ float texelWidth(int level, float depth) {
 // mean or, where one side is a step to another surface, the smaller.
 float pixelStep(float before, float depth, float after) {
     float width = texelWidth(0, depth);
-    float stepBefore = before > 0.0 ? depth - before : 0.0;
-    float stepAfter = after > 0.0 ? after - depth : 0.0;
+    float onlyAfter = after > 0.0 ? after - depth : 0.0;
+    float stepBefore = before > 0.0 ? depth - before : onlyAfter;
+    float stepAfter = after > 0.0 ? onlyAfter : stepBefore;
     float smaller = min(abs(stepBefore), abs(stepAfter));
     float larger = max(abs(stepBefore), abs(stepAfter));
     bool goesOn = larger <= 2.0 * max(smaller, width);
-    float both = goesOn ? 0.5 * (stepBefore + stepAfter) : smaller;
-    return (min(before, after) > 0.0 ? both : stepBefore + stepAfter) / width;
+    return (goesOn ? 0.5 * (stepBefore + stepAfter) : smaller) / width;
 }
 
 // Area of a pixel's surface relative to one that faces the camera, from its own depth and those left, right, above, below.

@@ -55,11 +55,11 @@ RawTexel texelAt(int place) {
 }
 
 void reduceLevel(int level, ivec2 tile, int thread) {
-    int width = tileSize >> level;
-    if (thread >= width * width) {
+    int shift = rawLevels - level; // of the level's texels a side in a tile
+    if (thread >> 2 * shift != 0) {
         return;
     }
-    ivec2 texel = ivec2(thread % width, thread / width);
+    ivec2 texel = ivec2(thread & (1 << shift) - 1, thread >> shift);
     int spacing = 1 << (level - 2); // between the children, in texels of level 1
     int first = (texel.y * side + texel.x) * 2 * spacing;
     RawTexel children[4];
@@ -71,7 +71,7 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     }
     Surfaces surfaces = keepsSeconds(level) ? reduceSurfaces(children, others, level)
                                                   : Surfaces(reduceTexels(children, level), emptyTexel());
-    storeSurfaces(surfaces, first, level, tile * width + texel);
+    storeSurfaces(surfaces, first, level, (tile << shift) + texel);
 }
 
 // Sums of a whole tile's texels, which all are full.
