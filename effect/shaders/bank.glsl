@@ -207,7 +207,7 @@ float pixelStep(float before, float depth, float after) {
     float stepAfter = after > 0.0 ? onlyAfter : stepBefore;
     float smaller = min(abs(stepBefore), abs(stepAfter));
     float larger = max(abs(stepBefore), abs(stepAfter));
-    bool goesOn = larger <= 2.0 * max(smaller, width);
+    bool goesOn = larger <= bankContinuedStep * max(smaller, width);
     return (goesOn ? 0.5 * (stepBefore + stepAfter) : smaller) / width;
 }
 
@@ -266,11 +266,10 @@ bool givesLight(uint from, uint to) {
     return !separateMaterials || exchanges(from, to);
 }
 
-const float finestSeparation = secondLevels > 0 ? bankFinestSeparation : bankSurfaceSeparation;
-
 // Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
 float separationAt(int level, float nearest) {
-    return (level == 1 ? finestSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
+    float separation = level == 1 && secondLevels > 0 ? bankFinestSeparation : bankSurfaceSeparation;
+    return separation * texelWidth(level, nearest);
 }
 
 // Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.

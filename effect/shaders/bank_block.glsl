@@ -104,8 +104,7 @@ float longestStep(float before, float first, float second, float after) {
     return max(max(abs(first - before), abs(second - first)), abs(after - second));
 }
 
-// Whether a block and the pixels beside it are one surface, without holes or separate materials: no step from pixel to
-// pixel is so long that the depths of the block could be further apart than separationAt.
+// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
 bool isPlain(Block block, Sides sides, float width) {
     vec2 leastSides = min(min(sides.left, sides.right), min(sides.above, sides.below));
     float leastOwn = min(min(block.depth[0], block.depth[1]), min(block.depth[2], block.depth[3]));
@@ -113,7 +112,7 @@ bool isPlain(Block block, Sides sides, float width) {
                             longestStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
                         max(longestStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
                             longestStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
-    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= finestSeparation * width && !separateMaterials;
+    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= bankContinuedStep * width && !separateMaterials;
 }
 
 // Areas of a plain block's pixels: as areaOf, where every depth goes on to both sides.

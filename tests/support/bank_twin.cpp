@@ -59,7 +59,7 @@ double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* 
     }
     const double smaller = std::min(std::abs(stepBefore), std::abs(stepAfter));
     const double larger = std::max(std::abs(stepBefore), std::abs(stepAfter));
-    return larger <= 2 * std::max(smaller, width) ? 0.5 * (stepBefore + stepAfter) : smaller;
+    return larger <= constants::bankContinuedStep * std::max(smaller, width) ? 0.5 * (stepBefore + stepAfter) : smaller;
 }
 
 } // namespace
@@ -258,7 +258,8 @@ void BankTwin::combineRegion(int firstX, int firstY) {
     for (int part = 0; part < 4; ++part) {
         edges[part] = isEdgePart(firstX + part % 2 * partWidth, firstY + part / 2 * partHeight);
     }
-    const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > constants::bankMostEdgeParts;
+    const int most = settings_.secondSurfaces ? constants::bankSurfacesMostEdgeParts : constants::bankMostEdgeParts;
+    const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > most;
     for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); ++y) {
         for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); ++x) {
             if (raw_[0].at(x, y)->mass > 0) {
