@@ -154,7 +154,7 @@ uint listEntry(ivec2 part, uint edges) {
     return uint(part.x) | uint(part.y) << 12 | edges << 24;
 }
 
-// Bits of a tile's entry: whether pixels have a material,
+// Bits of a tile's entry: whether pixels have an id,
 const uint tileOccupied = 1u;
 
 // and whether depth makes a step or pixels were left out, by rows (the first, the next two, the fourth, and so from below)

@@ -195,7 +195,7 @@ ivec2 fineRingPosition(int index) {
 
 // A thread's quad, not unpacked before it is needed: it takes less room so.
 struct Quad {
-    uint word; // packQuad
+    uint word;       // packQuad
     uvec2 materials; // materialsOf
     float depth;
 };

@@ -108,7 +108,7 @@ struct ScatterParameters {
     uint thesisRadius; // taps on either side
     float thesisStrength;
     float unused0, unused1, unused2;
-    // Of `bank`, per level of the pyramid from 1 on: its first texel, width, height, and first block of the blur.
+    // Of `bank`, per level of the pyramid from 1 on: its first texel, width, height, and, from 2 on, first block of the blur.
     ivec4 bankLevels[7];
 };
 
@@ -155,7 +155,7 @@ struct BrutePixel {
 // bits of those that have a weight, else nothing.
 NACRE_CONSTANT bankBinWords = 8;
 NACRE_CONSTANT bankTableWords = 1 + 112 * bankBinWords;
-// Workgroups along x of the combination's dispatches; longer lists take several rows. All of 7680x4320 fits one.
+// Workgroups along x of the combination's dispatches; longer lists take several rows. Those of 3840x2160 fit one.
 NACRE_CONSTANT bankDispatchWidth = 65535;
 struct BankDispatch {
     uint x, y, z; // VkDispatchIndirectCommand
