@@ -15,7 +15,7 @@ inline constexpr int bankLevels = 6;
 inline constexpr int bankSize = bankLevels + 2;
 
 /// Least share of a kernel in a channel of a mixture, but for none: pixels read only levels that have one, and with 0
-/// they would read a quarter more of them, with edge responses closer by at most 0.0024 and no gain in any picture.
+/// they would read a quarter more of them, with edge responses closer by at most 0.0024.
 inline constexpr double bankLeastShare = 0.008;
 /// What share of each kernel makes up a profile: weights[kernel][channel] ≥ 0, summing to 1 over the kernels.
 using BankWeights = std::array<Rgb, bankSize>;

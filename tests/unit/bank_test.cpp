@@ -149,8 +149,8 @@ TEST(BankProjection, EdgeResponseIsClose) {
     }
 }
 
-// At the optimum moving light between two kernels does not help, nor to one that is left out as much as the least
-// share: perturbed mixtures have a larger error.
+// At the optimum moving light between two kernels does not help: perturbed mixtures have a larger error. To a kernel
+// that is left out a little would help, but not as much as the least share.
 TEST(BankProjection, IsTheMinimum) {
     const NamedProfile skin = std::move(testProfiles().front());
     for (const double scale : {0.2, 1.6, 4.8}) {
@@ -170,7 +170,7 @@ TEST(BankProjection, IsTheMinimum) {
         for (int from = 0; from < bankSize; ++from) {
             for (int to = 0; to < bankSize; ++to) {
                 BankWeights moved = best;
-                const double share = std::min(bankLeastShare, best[from][0]);
+                const double share = std::min(best[to][0] > 0 ? 1e-3 : bankLeastShare, best[from][0]);
                 moved[from][0] -= share;
                 moved[to][0] += share;
                 EXPECT_GE(error(moved), error(best) - 1e-12) << from << " to " << to << " at " << scale;
@@ -208,7 +208,8 @@ TEST(BankTable, AgreesWithTheProjection) {
             }
         }
         std::printf("%-8s table against projection %.5f\n", named.name, worst);
-        EXPECT_LT(worst, 4e-3) << named.name; // where one bin leaves a kernel out and the next does not
+        // One Gaussian's share of a kernel grows fastest where one bin leaves it out and the next does not.
+        EXPECT_LT(worst, std::string_view(named.name) == "one" ? 3e-3 : 2e-3) << named.name;
     }
 }
 
