@@ -6,14 +6,20 @@ layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
     uvec4 bankTables[]; // bankTableWords a material
 };
 
-// Numerator and denominator of a pixel's result, per channel.
+// Numerator of every pixel's result, and their denominator.
 struct Sum {
-    vec2 light; // red and green
-    vec2 blue;  // light and mass
-    vec2 mass;  // of red and green
+    vec3 light[ownPixels];
+    vec3 mass;
 };
 
-const Sum noSum = Sum(vec2(0.0), vec2(0.0), vec2(0.0));
+Sum noSum() {
+    Sum sum;
+    [[unroll]] for (int i = 0; i < ownPixels; ++i) {
+        sum.light[i] = vec3(0.0);
+    }
+    sum.mass = vec3(0.0);
+    return sum;
+}
 
 // A material's weights of the kernels at a scale.
 struct Mixture {
@@ -52,29 +58,9 @@ vec4 unpackLight(uvec2 words) {
     return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
 }
 
-void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
-    sum.light += weight.rg * lightAndMass.rg;
-    sum.blue += weight.b * lightAndMass.ba;
-    sum.mass += weight.rg * lightAndMass.a;
-}
-
-vec3 quotient(Sum sum) {
-    vec3 light = vec3(sum.light, sum.blue.x);
-    vec3 mass = vec3(sum.mass, sum.blue.y);
-    return light / max(mass, vec3(1e-20));
-}
-
 // The light of one of a thread's pixels.
 vec4 ownLight(ivec2 thread, int i) {
     return unpackLight(pixelLights[ownPlace(thread, ivec2(i & 1, i >> 1))]);
-}
-
-// The identity.
-void addIdentity(inout Sum sums[ownPixels], Mixture mixture, ivec2 thread) {
-    vec3 weight = max(kernelWeight(mixture, 0), vec3(bankLeastIdentity));
-    [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-        add(sums[i], weight, ownLight(thread, i));
-    }
 }
 
 // Where a thread's pixels lie between four texels of a level.
@@ -84,13 +70,14 @@ struct Corner {
     float step;    // from a pixel to the next
 };
 
+// `local`: counted from the region's first pixel.
 Corner levelCorner(int level, ivec2 region, ivec2 local) {
     int width = 1 << level;
     float step = uintBitsToFloat(0x3f800000u - uint(level << 23)); // 1 / width
     // In px from the middle of levelFirst on.
-    ivec2 beyond = local - width / 2 - ((region - width / 2) & -width);
+    ivec2 beyond = local + ((region + (width >> 1)) & (width - 1));
     ivec2 texel = beyond >> level;
-    vec2 fraction = (vec2(beyond & (width - 1)) + 0.5) * step;
+    vec2 fraction = vec2(beyond & (width - 1)) * step + 0.5 * step;
     return Corner(levelPlace(level) + texel.y * levelPitch + texel.x, fraction, step);
 }
 
@@ -118,11 +105,11 @@ float levelShare(float total, float away, float scale) {
 
 // Writes those of the thread's pixels that are members of a group, which share a material. `local`: the first. The light
 // that is not scattered is fetched again: kept, it would take registers from everybody.
-void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum sums[ownPixels]) {
+void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum sum) {
     ivec2 first = local + view.areaOffset;
     vec3 leaving[ownPixels];
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-        leaving[i] = quotient(sums[i]);
+        leaving[i] = sum.light[i] / max(sum.mass, vec3(1e-20));
     }
     if (strength < 1.0 || hasFlag(flagStrength)) {
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {

@@ -67,6 +67,16 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
 const float middleRoot = 0.84089642;
 const float besideRoot = 0.70710678;
 
+void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
+    sum.light[0] += weight * lightAndMass.rgb;
+    sum.mass += weight * lightAndMass.a;
+}
+
+// The identity.
+void addIdentity(inout Sum sum, vec3 weight, ivec2 local) {
+    add(sum, max(weight, vec3(bankLeastIdentity)), ownLight(local, 0));
+}
+
 // Adds a kernel of light and area that were summed with depth weights over the surface within its reach.
 void addSurface(inout Sum sum, vec3 weight, vec4 lightAndArea) {
     float mass = massOf(lightAndArea.w);
@@ -168,11 +178,11 @@ void addPlainLevel(inout Sum sum, vec3 weight, Corner corner) {
     add(sum, weight, mix(upper, lower, corner.fraction.y));
 }
 
-void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 pixel, float depth, uint material) {
+void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 local, float depth, uint material) {
     [[dont_unroll]] for (uint left = usedKernels(mixture) & levelKernels; left != 0u; left &= left - 1u) {
         int level = findLSB(left) - 1;
         vec3 weight = kernelWeight(mixture, level + 1);
-        Corner corner = levelCorner(level, region, pixel);
+        Corner corner = levelCorner(level, region, local);
         if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
             addPlainLevel(sum, weight, corner);
         } else {
@@ -198,14 +208,14 @@ void main() {
     float depth = pixelDepths[ownPlace(local, ivec2(0))]; // 0 where there is no material
     if (depth > 0.0) {
         Mixture mixture = findMixture(material, depth, region + local + view.areaOffset);
-        Sum sums[1] = Sum[](noSum);
-        addIdentity(sums, mixture, local);
-        addPixels(sums[0], kernelWeight(mixture, 1), local, material, depth);
+        Sum sum = noSum();
+        addIdentity(sum, kernelWeight(mixture, 0), local);
+        addPixels(sum, kernelWeight(mixture, 1), local, material, depth);
         if ((usedKernels(mixture) & finestKernel) != 0u) {
-            addFinestLevel(sums[0], kernelWeight(mixture, 2), local, depth, material);
+            addFinestLevel(sum, kernelWeight(mixture, 2), local, depth, material);
         }
-        addLevels(sums[0], mixture, region, region + local, depth, material);
-        storeGroup(region + local, bvec4(true), material, mixture.strength, sums);
+        addLevels(sum, mixture, region, local, depth, material);
+        storeGroup(region + local, bvec4(true), material, mixture.strength, sum);
     } else {
         storeRest(region + local, 0u);
     }

@@ -110,15 +110,42 @@ void filterFinestLevel(out Light result[4], ivec2 texel, vec2 beside) {
     }
 }
 
-// Adds a kernel of which every pixel of the quad has its own value.
-void addFiltered(inout Sum sums[4], vec3 weight, Light filtered[4]) {
+// Adds a kernel whose reach is all on the surface.
+void addWhole(inout Sum sum, vec3 weight, Light lights[4]) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        add(sums[i], weight, vec4(filtered[i]));
+        sum.light[i] += weight * vec3(lights[i].rgb);
+    }
+    sum.mass += weight;
+}
+
+// Adds a kernel of which only a mass is: each pixel has the mean of its light, the quad one share.
+void addPartial(inout Sum sum, vec3 weight, vec4 lights[4]) {
+    weight *= 0.25 * (lights[0].a + lights[1].a + lights[2].a + lights[3].a);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        sum.light[i] += weight / max(lights[i].a, 1e-6) * lights[i].rgb;
+    }
+    sum.mass += weight;
+}
+
+void addKernel(inout Sum sum, vec3 weight, Light lights[4]) {
+    if (min(min(lights[0].a, lights[1].a), min(lights[2].a, lights[3].a)) < Real(1.0)) {
+        addPartial(sum, weight, vec4[](vec4(lights[0]), vec4(lights[1]), vec4(lights[2]), vec4(lights[3])));
+    } else {
+        addWhole(sum, weight, lights);
     }
 }
 
+// The identity: a smooth region's pixels all give light where they receive it.
+void addIdentity(inout Sum sum, vec3 weight, ivec2 texel) {
+    Light lights[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        lights[i] = storedLight(pixelLights[ownPlace(texel, ivec2(i & 1, i >> 1))]);
+    }
+    addWhole(sum, max(weight, vec3(bankLeastIdentity)), lights);
+}
+
 // Adds a level with bilinear weights, from 2 on, where the quad's pixels lie between the same four texels.
-void addPlainLevel(inout Sum sums[4], vec3 weight, Corner corner) {
+void addPlainLevel(inout Sum sum, vec3 weight, Corner corner) {
     int below = corner.place + levelPitch;
     Real2 first = Real2(corner.fraction);
     Real2 next = first + Real(corner.step);
@@ -126,51 +153,56 @@ void addPlainLevel(inout Sum sums[4], vec3 weight, Corner corner) {
     Light lowerLeft = storedLight(levelLights[below]);
     Light upperSlope = storedLight(levelLights[corner.place + 1]) - upperLeft;
     Light lowerSlope = storedLight(levelLights[below + 1]) - lowerLeft;
+    Light lights[4];
     [[unroll]] for (int x = 0; x < 2; ++x) {
         Real fraction = x == 0 ? first.x : next.x;
         Light upper = fma(Light(fraction), upperSlope, upperLeft);
         Light slope = fma(Light(fraction), lowerSlope, lowerLeft) - upper;
-        add(sums[x], weight, vec4(fma(Light(first.y), slope, upper)));
-        add(sums[x + 2], weight, vec4(fma(Light(next.y), slope, upper)));
+        lights[x] = fma(Light(first.y), slope, upper);
+        lights[x + 2] = fma(Light(next.y), slope, upper);
     }
+    addKernel(sum, weight, lights);
 }
 
 // The same with depth weights, and a share of the level, that the quad's pixels have in common: those at its middle.
-void addWeightedLevel(inout Sum sums[4], vec3 weight, int level, Corner corner, float depth) {
+void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, float depth) {
     float scale = levelScale(level, depth);
     vec2 middle = corner.fraction + 0.5 * corner.step;
-    vec4 lights[4];
+    vec4 taps[4];
     float total = 0.0;
     float away = 0.0;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = corner.place + (i & 1) + (i >> 1) * levelPitch;
         float distance = levelDepths[place] - depth;
         float tapWeight = depthWeight(distance, scale);
-        lights[i] = tapWeight * levelLight(levelLights[place]);
+        taps[i] = tapWeight * levelLight(levelLights[place]);
         tapWeight *= ((i & 1) == 0 ? 1.0 - middle.x : middle.x) * (i < 2 ? 1.0 - middle.y : middle.y);
         total += tapWeight;
         away += tapWeight * distance;
     }
-    weight *= levelShare(total, away, scale);
     vec2 fraction = corner.fraction;
+    vec4 lights[4];
     [[unroll]] for (int x = 0; x < 2; ++x) {
-        vec4 upper = mix(lights[0], lights[1], fraction.x);
-        vec4 slope = mix(lights[2], lights[3], fraction.x) - upper;
-        add(sums[x], weight, upper + fraction.y * slope);
-        add(sums[x + 2], weight, upper + (fraction.y + corner.step) * slope);
+        vec4 upper = mix(taps[0], taps[1], fraction.x);
+        vec4 slope = mix(taps[2], taps[3], fraction.x) - upper;
+        lights[x] = upper + fraction.y * slope;
+        lights[x + 2] = upper + (fraction.y + corner.step) * slope;
         fraction.x += corner.step;
     }
+    addPartial(sum, weight * levelShare(total, away, scale), lights);
 }
 
-void addCoarseLevels(inout Sum sums[4], Mixture mixture, ivec2 region, ivec2 first, float depth) {
+// `local`: the quad's first pixel, counted from the region's. Levels without a weight are not asked for it.
+void addCoarseLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth) {
+    uint rough = roughLevels;
     [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
-        vec3 weight = kernelWeight(mixture, level + 1);
-        if (weight != vec3(0.0)) {
-            Corner corner = levelCorner(level, region, first);
-            if ((roughLevels >> level & 1u) == 0u) {
-                addPlainLevel(sums, weight, corner);
+        if ((used >> level & 2u) != 0u) {
+            vec3 weight = kernelWeight(mixture, level + 1);
+            Corner corner = levelCorner(level, region, local);
+            if ((rough >> level & 1u) == 0u) {
+                addPlainLevel(sum, weight, corner);
             } else {
-                addWeightedLevel(sums, weight, level, corner, depth);
+                addWeightedLevel(sum, weight, level, corner, depth);
             }
         }
     }
@@ -264,8 +296,8 @@ void main() {
     barrier();
     Quad quad = loadRegion(region, thread, texel);
     barrier();
-    ivec2 part = 2 * texel / partSize;
-    if ((edges >> (part.x + 2 * part.y) & 1u) != 0u) {
+    uvec2 part = gl_LocalInvocationID.xy / uvec2(partSize / 2);
+    if ((edges >> (part.x + 2u * part.y) & 1u) != 0u) {
         return;
     }
     ivec2 first = region + 2 * texel;
@@ -277,25 +309,29 @@ void main() {
     for (uint left = scattering; left != 0u;) {
         int next = findLSB(left);
         uint material = pixelMaterial(quad.materials, ivec2(next & 1, next >> 1));
-        bvec4 members;
-        [[unroll]] for (int i = 0; i < 4; ++i) {
-            members[i] = hasMaterial(quad, i, material);
-            left &= members[i] ? ~(1u << i) : ~0u;
+        bvec4 members = bvec4(true);
+        if ((quad.word & mixedBit) != 0u) {
+            [[unroll]] for (int i = 0; i < 4; ++i) {
+                members[i] = hasMaterial(quad, i, material);
+                left &= members[i] ? ~(1u << i) : ~0u;
+            }
+        } else {
+            left = 0u;
         }
         vec2 beside = besideOf(quad.word);
         Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
-        Light pixels[4];
-        filterPixels(pixels, texel, beside);
-        Light finest[4] = pixels;
-        if ((usedKernels(mixture) & finestKernel) != 0u) {
-            filterFinestLevel(finest, texel, beside);
+        uint used = usedKernels(mixture);
+        Sum sum = noSum();
+        addIdentity(sum, kernelWeight(mixture, 0), texel);
+        Light lights[4];
+        filterPixels(lights, texel, beside);
+        addKernel(sum, kernelWeight(mixture, 1), lights);
+        if ((used & finestKernel) != 0u) {
+            filterFinestLevel(lights, texel, beside);
+            addKernel(sum, kernelWeight(mixture, 2), lights);
         }
-        Sum sums[4] = Sum[](noSum, noSum, noSum, noSum);
-        addIdentity(sums, mixture, texel);
-        addFiltered(sums, kernelWeight(mixture, 1), pixels);
-        addFiltered(sums, kernelWeight(mixture, 2), finest);
-        addCoarseLevels(sums, mixture, region, first, quad.depth);
-        storeGroup(first, members, material, mixture.strength, sums);
+        addCoarseLevels(sum, mixture, used, region, 2 * texel, quad.depth);
+        storeGroup(first, members, material, mixture.strength, sum);
     }
     if (scattering != 15u) {
         storeRest(first, scattering);

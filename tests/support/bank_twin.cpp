@@ -260,11 +260,9 @@ void BankTwin::combineRegion(int firstX, int firstY) {
     }
     const int most = settings_.secondSurfaces ? constants::bankSurfacesMostEdgeParts : constants::bankMostEdgeParts;
     const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > most;
-    for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); ++y) {
-        for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); ++x) {
-            if (raw_[0].at(x, y)->mass > 0) {
-                combinePixel(x, y, !noneSmooth && !edges[(x - firstX) / partWidth + 2 * ((y - firstY) / partHeight)]);
-            }
+    for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); y += 2) {
+        for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); x += 2) {
+            combineQuad(x, y, !noneSmooth && !edges[(x - firstX) / partWidth + 2 * ((y - firstY) / partHeight)]);
         }
     }
 }

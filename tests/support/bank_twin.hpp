@@ -4,6 +4,8 @@
 #include "nacre/bank.hpp"
 #include "tests/support/scatter_scenes.hpp"
 
+#include <span>
+
 namespace nacre::tests {
 
 /// Switches off one ingredient at a time, to measure what it is worth.
@@ -51,12 +53,7 @@ public:
     const std::vector<Rgb>& result() const { return result_; }
 
 private:
-    struct Accumulator;
-    /// What a pixel reads the levels from.
-    struct Standpoint {
-        double depth; ///< mm, which depth weights are taken from
-        bool smooth;  ///< second surfaces are not read
-    };
+    struct Seen;
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
     bool hasSeconds(int level) const;
@@ -67,13 +64,17 @@ private:
     bool isRough(int blockX, int blockY) const;
     bool isEdgePart(int firstX, int firstY) const;
     void combineRegion(int firstX, int firstY);
-    void combinePixel(int x, int y, bool smooth);
-    void addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const;
+    void combineQuad(int firstX, int firstY, bool smooth);
+    bool isMember(int x, int y) const;
+    double depthOf(int x, int y, bool smooth) const;
+    Seen seenBy(int kernel, int x, int y, bool smooth) const;
+    void combinePixel(int x, int y, bool smooth, std::span<const Seen, bankSize> seen);
+    Seen pixels(int x, int y) const;
     std::array<double, 2> slopeFalloffs(int x, int y) const;
-    void addFinest(Accumulator& sum, const Rgb& weight, int x, int y) const;
-    void addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
-    void addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const;
-    void addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const;
+    Seen finest(int x, int y) const;
+    Seen finestOnSlope(int x, int y) const;
+    Seen pixelsOnSlope(int x, int y) const;
+    Seen levelSeen(int level, int x, int y, bool smooth) const;
     double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);

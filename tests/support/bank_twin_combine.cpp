@@ -19,45 +19,78 @@ std::array<double, 5> finestTaps(double side, int odd) {
 
 } // namespace
 
-// Numerator and denominator of the result, per channel.
-struct BankTwin::Accumulator {
+// What a kernel sees of a pixel's surface: light times mass, and mass.
+struct BankTwin::Seen {
     Rgb light{};
-    Rgb mass{};
-
-    void add(const Rgb& weight, const Rgb& kernelLight, double kernelMass) {
-        for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += weight[channel] * kernelLight[channel];
-            mass[channel] += weight[channel] * kernelMass;
-        }
-    }
-
-    void add(const Rgb& weight, const SurfaceSum& surface) { add(weight, surface.lightOfMass(), surface.mass()); }
+    double mass = 0;
 };
 
-// In smooth regions the pixels of a 2x2 quad share its depth for their weights and for their texels' depth weights.
-void BankTwin::combinePixel(int x, int y, bool smooth) {
+// The pixels of a 2x2 quad. In smooth regions they share its depth, for their weights and their texels' depth weights,
+// and a kernel's mass.
+void BankTwin::combineQuad(int firstX, int firstY, bool smooth) {
+    std::array<std::array<Seen, bankSize>, 4> seen;
+    for (int i = 0; i < 4; ++i) {
+        const int x = firstX + i % 2;
+        const int y = firstY + i / 2;
+        if (smooth || isMember(x, y)) {
+            for (int kernel = 1; kernel < bankSize; ++kernel) {
+                seen[i][kernel] = seenBy(kernel, x, y, smooth);
+            }
+        }
+    }
+    for (int kernel = 1; smooth && kernel < bankSize; ++kernel) {
+        double mass = 0;
+        for (const auto& pixel : seen) {
+            mass += 0.25 * pixel[kernel].mass;
+        }
+        for (auto& pixel : seen) {
+            for (double& value : pixel[kernel].light) {
+                value *= mass / std::max(pixel[kernel].mass, 1e-6);
+            }
+            pixel[kernel].mass = mass;
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (isMember(firstX + i % 2, firstY + i / 2)) {
+            combinePixel(firstX + i % 2, firstY + i / 2, smooth, seen[i]);
+        }
+    }
+}
+
+bool BankTwin::isMember(int x, int y) const {
+    const RawTexel* pixel = raw_[0].at(x, y);
+    return pixel != nullptr && pixel->mass > 0;
+}
+
+// What the weights of a pixel's kernels and of its texels are taken at, mm.
+double BankTwin::depthOf(int x, int y, bool smooth) const {
+    return smooth ? raw_[1].at(x / 2, y / 2)->depth : raw_[0].at(x, y)->depth;
+}
+
+BankTwin::Seen BankTwin::seenBy(int kernel, int x, int y, bool smooth) const {
+    switch (kernel) {
+    case 1:
+        return smooth ? pixelsOnSlope(x, y) : pixels(x, y);
+    case 2:
+        return smooth ? finestOnSlope(x, y) : finest(x, y);
+    default:
+        return levelSeen(kernel - 1, x, y, smooth);
+    }
+}
+
+void BankTwin::combinePixel(int x, int y, bool smooth, std::span<const Seen, bankSize> seen) {
     const std::size_t index = scene_.index(x, y);
-    const double depth = smooth ? raw_[1].at(x / 2, y / 2)->depth : raw_[0].at(x, y)->depth;
-    const BankWeights weights = tables_[scene_.materialId[index] - 1].at(scene_.focalLength * stretch(x, y) / depth);
-    Rgb identity = weights[0];
-    for (double& share : identity) {
-        share = std::max<double>(share, constants::bankLeastIdentity);
-    }
-    Accumulator sum;
-    sum.add(identity, scene_.irradiance[index], 1);
-    if (smooth) {
-        addPixelsOnSlope(sum, weights[1], x, y);
-        addFinestOnSlope(sum, weights[2], x, y);
-    } else {
-        addPixels(sum, weights[1], x, y);
-        addFinest(sum, weights[2], x, y);
-    }
-    for (int level = 2; level <= bankLevels; ++level) {
-        addLevel(sum, weights[level + 1], level, x, y, {depth, smooth});
-    }
+    const BankWeights weights =
+        tables_[scene_.materialId[index] - 1].at(scene_.focalLength * stretch(x, y) / depthOf(x, y, smooth));
     for (int channel = 0; channel < 3; ++channel) {
-        if (sum.mass[channel] > 0) {
-            result_[index][channel] = sum.light[channel] / sum.mass[channel];
+        double mass = std::max<double>(weights[0][channel], constants::bankLeastIdentity);
+        double light = mass * scene_.irradiance[index][channel];
+        for (int kernel = 1; kernel < bankSize; ++kernel) {
+            light += weights[kernel][channel] * seen[kernel].light[channel];
+            mass += weights[kernel][channel] * seen[kernel].mass;
+        }
+        if (mass > 0) {
+            result_[index][channel] = light / mass;
         }
     }
 }
@@ -82,19 +115,18 @@ double BankTwin::quadSlope(int x, int y, int dx, int dy) const {
 // How much a tap beside the middle of a 3x3 weighs, x and y, for one of 1 there, on the slope that the pixel's quad
 // stands on.
 std::array<double, 2> BankTwin::slopeFalloffs(int x, int y) const {
-    const double width = texelWidth(0, raw_[0].at(x, y)->depth);
+    const double width = texelWidth(0, depthOf(x, y, true));
     const auto side = [&](double slope) {
         return falloff(slope * slope / (constants::bankPixelDepthVariance * width * width));
     };
     return {side(quadSlope(x, y, 1, 0)), side(quadSlope(x, y, 0, 1))};
 }
 
-// As addPixels, with the depths of the slope the quad stands on in place of the taps' own: separable.
-void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
+// As pixels, with the depths of the slope the quad stands on in place of the taps' own: separable.
+BankTwin::Seen BankTwin::pixelsOnSlope(int x, int y) const {
     const std::array<double, 2> falloffs = slopeFalloffs(x, y);
     const double total = (1 + falloffs[0]) * (1 + falloffs[1]);
-    Rgb light{};
-    double mass = 0;
+    Seen seen;
     for (int i = 0; i < 9; ++i) {
         const RawTexel* tap = raw_[0].at(x + i % 3 - 1, y + i / 3 - 1);
         if (tap == nullptr || tap->mass <= 0) {
@@ -102,21 +134,20 @@ void BankTwin::addPixelsOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
         }
         const double kernel = (i % 3 == 1 ? 1 : 0.5 * falloffs[0]) * (i / 3 == 1 ? 1 : 0.5 * falloffs[1]) / total;
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += kernel * tap->light[channel] / tap->area;
+            seen.light[channel] += kernel * tap->light[channel] / tap->area;
         }
-        mass += kernel;
+        seen.mass += kernel;
     }
-    sum.add(weight, light, mass);
+    return seen;
 }
 
 // The same for level 1.
-void BankTwin::addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int y) const {
+BankTwin::Seen BankTwin::finestOnSlope(int x, int y) const {
     const std::array<double, 2> falloffs = slopeFalloffs(x, y);
     const auto side = [](double wide) { return std::pow(wide, 1.5) / (1 + 2 * std::pow(wide, 1.5)); };
     const std::array<double, 5> tapsX = finestTaps(side(falloffs[0]), x % 2);
     const std::array<double, 5> tapsY = finestTaps(side(falloffs[1]), y % 2);
-    Rgb light{};
-    double mass = 0;
+    Seen seen;
     for (int i = 0; i < 25; ++i) {
         const RawTexel* tap = raw_[1].at(x / 2 + i % 5 - 2, y / 2 + i / 5 - 2);
         if (tap == nullptr || tap->mass <= 0) {
@@ -124,15 +155,15 @@ void BankTwin::addFinestOnSlope(Accumulator& sum, const Rgb& weight, int x, int 
         }
         const double kernel = tapsX[i % 5] * tapsY[i / 5] * massOf(tap->area);
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += kernel * tap->light[channel] / tap->area;
+            seen.light[channel] += kernel * tap->light[channel] / tap->area;
         }
-        mass += kernel;
+        seen.mass += kernel;
     }
-    sum.add(weight, light, mass);
+    return seen;
 }
 
 // Level 1 as a pixel of an edge region sees it.
-void BankTwin::addFinest(Accumulator& sum, const Rgb& weight, int x, int y) const {
+BankTwin::Seen BankTwin::finest(int x, int y) const {
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(1, depth);
     const std::array<double, 5> tapsX = finestTaps(1 / 3.0, x % 2);
@@ -143,10 +174,10 @@ void BankTwin::addFinest(Accumulator& sum, const Rgb& weight, int x, int y) cons
         surface.add(raw.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2), tapsX[i % 5] * tapsY[i / 5 % 5], depth,
                     constants::bankPixelDepthVariance * width * width);
     }
-    sum.add(weight, surface);
+    return {surface.lightOfMass(), surface.mass()};
 }
 
-void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) const {
+BankTwin::Seen BankTwin::pixels(int x, int y) const {
     constexpr double binomial[] = {0.25, 0.5, 0.25};
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
@@ -155,12 +186,13 @@ void BankTwin::addPixels(Accumulator& sum, const Rgb& weight, int x, int y) cons
         surface.add(raw_[0].at(x + i % 3 - 1, y + i / 3 - 1), binomial[i % 3] * binomial[i / 3], depth,
                     constants::bankPixelDepthVariance * width * width);
     }
-    sum.add(weight, surface);
+    return {surface.lightOfMass(), surface.mass()};
 }
 
-void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, int y, const Standpoint& from) const {
+BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     const TwinLevel<BlurredTexel>& blurred = blurred_[level];
-    const double width = texelWidth(level, from.depth);
+    const double depth = depthOf(x, y, smooth);
+    const double width = texelWidth(level, depth);
     const double depthVariance =
         settings_.secondSurfaces ? constants::bankSurfacesLevelDepthVariance : constants::bankLevelDepthVariance;
     const double awayVariance =
@@ -173,35 +205,35 @@ void BankTwin::addLevel(Accumulator& sum, const Rgb& weight, int level, int x, i
         return (i % 2 == 1 ? atX - firstX : 1 - atX + firstX) * (i / 2 % 2 == 1 ? atY - firstY : 1 - atY + firstY);
     };
     // What the level's share is taken at: in smooth regions the middle of the quad.
-    const double middleX = from.smooth ? (x / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionX;
-    const double middleY = from.smooth ? (y / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionY;
-    Rgb light{};
-    double mass = 0;
+    const double middleX = smooth ? (x / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionX;
+    const double middleY = smooth ? (y / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionY;
+    Seen seen;
     double total = 0;
     double away = 0; // of the texels' surface from the pixel's, mm
-    for (int i = 0; i < (from.smooth ? 4 : 8); ++i) {
+    for (int i = 0; i < (smooth ? 4 : 8); ++i) {
         const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
         const int tapY = std::clamp(firstY + i / 2 % 2, 0, blurred.height - 1);
         const BlurredTexel& tap = *(i < 4 ? blurred : blurredSeconds_[level]).at(tapX, tapY);
-        const double difference = tap.depth - from.depth;
+        const double difference = tap.depth - depth;
         const double q = difference * difference / (depthVariance * width * width);
         const double depthWeight = tap.depth > 0 ? falloff(q) : 0;
         const double tapWeight = placeWeight(i, positionX, positionY) * depthWeight;
         const double middleWeight = placeWeight(i, middleX, middleY) * depthWeight;
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += tapWeight * tap.light[channel];
+            seen.light[channel] += tapWeight * tap.light[channel];
         }
-        mass += tapWeight * tap.mass;
+        seen.mass += tapWeight * tap.mass;
         total += middleWeight;
         away += middleWeight * difference;
     }
     total = std::max<double>(total, constants::bankLeastWeight);
     const double distance = away / total / width;
     const double share = falloff(distance * distance / awayVariance);
-    for (double& value : light) {
+    for (double& value : seen.light) {
         value *= share / total;
     }
-    sum.add(weight, light, share * mass / total);
+    seen.mass *= share / total;
+    return seen;
 }
 
 } // namespace nacre::tests
