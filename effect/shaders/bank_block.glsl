@@ -62,8 +62,8 @@ Block fetchBlock(ivec2 first) {
 
 // The pixels around the tile, without its corners: one a thread.
 RingPixel fetchRing(ivec2 tileFirst, int thread) {
-    int along = thread % tileSize;
-    int beyond = (thread / tileSize & 1) == 0 ? -1 : tileSize;
+    int along = thread & tileSize - 1;
+    int beyond = (thread & tileSize) == 0 ? -1 : tileSize;
     ivec2 place = thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
     ivec2 pixel = imagePixel(tileFirst + place);
     float depth = texelFetch(depthImage, pixel, 0).r;

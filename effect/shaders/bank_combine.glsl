@@ -38,9 +38,7 @@ Mixture findMixture(uint material, float depth, ivec2 pixel) {
     return Mixture(first + 1u + bin * bankBinWords, position - float(bin), head.y);
 }
 
-// Bits of usedKernels: level 1, the levels from 2 on.
-const uint finestKernel = 1u << 2;
-const uint levelKernels = ~7u;
+const uint finestKernel = 1u << 2; // level 1's bit of usedKernels
 
 // Bits of the kernels that have a weight.
 uint usedKernels(Mixture mixture) {
@@ -63,6 +61,19 @@ vec4 ownLight(ivec2 thread, int i) {
     return unpackLight(pixelLights[ownPlace(thread, ivec2(i & 1, i >> 1))]);
 }
 
+// A level's texels, from 2 on.
+struct LevelGrid {
+    int width;   // px
+    float step;  // 1 / width
+    uint places; // packedPlaces of this level and the coarser ones
+};
+
+const LevelGrid finestGrid = LevelGrid(4, 0.25, packedPlaces);
+
+LevelGrid coarser(LevelGrid grid) {
+    return LevelGrid(2 * grid.width, 0.5 * grid.step, grid.places >> 6);
+}
+
 // Where a thread's pixels lie between four texels of a level.
 struct Corner {
     int place;     // in shared memory, of the texel up and left of the first pixel
@@ -71,14 +82,13 @@ struct Corner {
 };
 
 // `local`: counted from the region's first pixel.
-Corner levelCorner(int level, ivec2 region, ivec2 local) {
-    int width = 1 << level;
-    float step = uintBitsToFloat(0x3f800000u - uint(level << 23)); // 1 / width
+Corner cornerOf(LevelGrid grid, int level, ivec2 region, ivec2 local) {
+    int last = grid.width - 1;
     // In px from the middle of levelFirst on.
-    ivec2 beyond = local + ((region + (width >> 1)) & (width - 1));
+    ivec2 beyond = local + (region + (grid.width >> 1) & last);
     ivec2 texel = beyond >> level;
-    vec2 fraction = vec2(beyond & (width - 1)) * step + 0.5 * step;
-    return Corner(levelPlace(level) + texel.y * levelPitch + texel.x, fraction, step);
+    vec2 fraction = fma(vec2(beyond & last), vec2(grid.step), vec2(0.5 * grid.step));
+    return Corner(placeOf(grid.places) + texel.y * levelPitch + texel.x, fraction, grid.step);
 }
 
 const float levelDepthVariance = secondLevels > 0 ? bankSurfacesLevelDepthVariance : bankLevelDepthVariance;

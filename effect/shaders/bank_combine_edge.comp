@@ -103,9 +103,12 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 local, uint material, float dep
     addSurface(sum, weight, lightAndArea);
 }
 
-// Of a pixel in the second row or column of a quad the 3x3 mean and the bilinear reading of it, ¼ and ¾, are this kernel
-// along an axis, from the texel before its own on; of one in the first the other way round, from the one after.
-const float finestTaps[4] = float[](1.0 / 4.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 12.0);
+// Along an axis the 3x3 mean and the bilinear reading of it, ¼ and ¾, are one kernel of four texels: ¼ ⅓ ⅓ 1/12 for a pixel
+// in the second row or column of a quad, from the texel before its own on; for one in the first the other way round, from
+// one further.
+vec4 finestTaps(int odd) {
+    return odd != 0 ? vec4(1.0 / 4.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 12.0) : vec4(1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 4.0);
+}
 
 // `distance`: how far the tap is behind the pixel.
 void addFinestTap(inout vec4 lightAndArea, uvec2 words, float kernel, float distance, float scale) {
@@ -117,21 +120,22 @@ void addFinestTap(inout vec4 lightAndArea, uvec2 words, float kernel, float dist
 // Level 1, as the pixel sees it.
 void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint material) {
     float scale = depthScale(texelWidth(1, depth), bankPixelDepthVariance);
-    ivec2 direction = 2 * (local & 1) - 1;
-    int row = fineIndex(local / 2 - direction);
+    ivec2 odd = local & 1;
+    vec4 tapsX = finestTaps(odd.x);
+    vec4 tapsY = finestTaps(odd.y);
+    int first = fineIndex((local >> 1) + odd - 2);
     vec4 lightAndArea = vec4(0.0);
     [[dont_unroll]] for (int y = 0; y < 4; ++y) {
         vec4 rowLightAndArea = vec4(0.0);
         [[unroll]] for (int x = 0; x < 4; ++x) {
-            int index = row + x * direction.x;
-            float kernel = !separateMaterials || exchanges(fineMaterials[index], material) ? finestTaps[x] : 0.0;
+            int index = first + y * finePitch + x;
+            float kernel = !separateMaterials || exchanges(fineMaterials[index], material) ? tapsX[x] : 0.0;
             addFinestTap(rowLightAndArea, fineLights[index], kernel, fineDepths[index] - depth, scale);
             if (secondLevels > 0 && fineSecondDepths[index] > 0.0) {
                 addFinestTap(rowLightAndArea, fineSecondLights[index], kernel, fineSecondDepths[index] - depth, scale);
             }
         }
-        lightAndArea += finestTaps[y] * rowLightAndArea;
-        row += direction.y * finePitch;
+        lightAndArea += tapsY[y] * rowLightAndArea;
     }
     addSurface(sum, weight, lightAndArea);
 }
@@ -178,16 +182,20 @@ void addPlainLevel(inout Sum sum, vec3 weight, Corner corner) {
     add(sum, weight, mix(upper, lower, corner.fraction.y));
 }
 
-void addLevels(inout Sum sum, Mixture mixture, ivec2 region, ivec2 local, float depth, uint material) {
-    [[dont_unroll]] for (uint left = usedKernels(mixture) & levelKernels; left != 0u; left &= left - 1u) {
-        int level = findLSB(left) - 1;
-        vec3 weight = kernelWeight(mixture, level + 1);
-        Corner corner = levelCorner(level, region, local);
-        if ((roughLevels >> level & 1u) == 0u && !separateMaterials) {
-            addPlainLevel(sum, weight, corner);
-        } else {
-            addWeightedLevel(sum, weight, level, corner, depth, material);
+void addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth, uint material) {
+    uint rough = separateMaterials ? ~0u : roughLevels;
+    LevelGrid grid = finestGrid;
+    [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
+        if ((used >> level & 2u) != 0u) {
+            vec3 weight = kernelWeight(mixture, level + 1);
+            Corner corner = cornerOf(grid, level, region, local);
+            if ((rough >> level & 1u) == 0u) {
+                addPlainLevel(sum, weight, corner);
+            } else {
+                addWeightedLevel(sum, weight, level, corner, depth, material);
+            }
         }
+        grid = coarser(grid);
     }
 }
 
@@ -211,10 +219,11 @@ void main() {
         Sum sum = noSum();
         addIdentity(sum, kernelWeight(mixture, 0), local);
         addPixels(sum, kernelWeight(mixture, 1), local, material, depth);
-        if ((usedKernels(mixture) & finestKernel) != 0u) {
+        uint used = usedKernels(mixture);
+        if ((used & finestKernel) != 0u) {
             addFinestLevel(sum, kernelWeight(mixture, 2), local, depth, material);
         }
-        addLevels(sum, mixture, region, local, depth, material);
+        addLevels(sum, mixture, used, region, local, depth, material);
         storeGroup(region + local, bvec4(true), material, mixture.strength, sum);
     } else {
         storeRest(region + local, 0u);

@@ -195,16 +195,18 @@ void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, floa
 // `local`: the quad's first pixel, counted from the region's. Levels without a weight are not asked for it.
 void addCoarseLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth) {
     uint rough = roughLevels;
+    LevelGrid grid = finestGrid;
     [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
         if ((used >> level & 2u) != 0u) {
             vec3 weight = kernelWeight(mixture, level + 1);
-            Corner corner = levelCorner(level, region, local);
+            Corner corner = cornerOf(grid, level, region, local);
             if ((rough >> level & 1u) == 0u) {
                 addPlainLevel(sum, weight, corner);
             } else {
                 addWeightedLevel(sum, weight, level, corner, depth);
             }
         }
+        grid = coarser(grid);
     }
 }
 

@@ -26,7 +26,7 @@ const int coarseCount = levelStart[bankLevels + 1];
 // In shared memory they lie in one sheet as wide as level 2, the others below it and side by side, so that a place follows
 // from its level without tables. Here are the levels' first places, halved, six bits each.
 const int levelPitch = levelSizes[2].x;
-const uint levelPlaces = isEdge ? 0u | 12u << 6 | 21u << 12 | 14u << 18 | 20u << 24
+const uint packedPlaces = isEdge ? 0u | 12u << 6 | 21u << 12 | 14u << 18 | 20u << 24
                                 : 0u | 30u << 6 | 33u << 12 | 48u << 18 | 50u << 24;
 const int coarseRoom = isEdge ? 51 : 112;
 
@@ -78,9 +78,9 @@ int globalIndex(int level, ivec2 texel) {
     return texelIndex(level, clamp(texel, ivec2(0), levelExtent(level) - 1));
 }
 
-// Where a level begins in the sheet.
-int levelPlace(int level) {
-    return int(levelPlaces >> 6 * (level - 2) & 63u) * 2;
+// Where the first of the packed levels begins in the sheet.
+int placeOf(uint packed) {
+    return int(packed & 63u) * 2;
 }
 
 // A texel of the levels from 2 on: which one it is of those that the region reads, counted level by level.
@@ -103,7 +103,7 @@ Coarse findCoarse(int number, ivec2 region) {
     }
     int row = int((float(number - start) + 0.5) / float(width));
     ivec2 texel = ivec2(number - start - row * width, row);
-    return Coarse(level, levelPlace(level) + texel.y * levelPitch + texel.x,
+    return Coarse(level, placeOf(packedPlaces >> 6 * (level - 2)) + texel.y * levelPitch + texel.x,
                   globalIndex(level, levelFirst(level, region) + texel));
 }
 
