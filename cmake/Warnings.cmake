@@ -1,5 +1,12 @@
 # nacre_warnings(TARGET): the project's own code is compiled with warnings, which are errors unless another project includes it.
 option(NACRE_WARNINGS_AS_ERRORS "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+
+# The sanitizers' presets do not optimise: it would double the time to compile. What their tests spend their time in is
+# compiled with this all the same.
+if(NACRE_SANITIZE)
+    set(NACRE_OPTIMISE_SANITIZED -O1)
+endif()
+
 function(nacre_warnings target)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
         -Wno-missing-field-initializers $<$<BOOL:${NACRE_WARNINGS_AS_ERRORS}>:-Werror>)
