@@ -167,9 +167,12 @@ public:
     explicit Scales(std::vector<TubePoint> spine) : spine_(std::move(spine)), arc_(spine_.size(), 0) {
         for (std::size_t i = 1; i < spine_.size(); ++i)
             arc_[i] = arc_[i - 1] + glm::length(spine_[i].center - spine_[i - 1].center);
-        for (std::size_t i = 0; i + 1 < spine_.size(); ++i)
+        for (std::size_t i = 0; i + 1 < spine_.size(); ++i) {
             while (float(counts_.size()) * rowHeight < arc_[i + 1])
                 counts_.push_back(std::floor(2 * pi * spine_[i].radius / 8 + 0.5f));
+            const float far = arc_[i + 1] - arc_[i] + std::max(spine_[i].radius, spine_[i + 1].radius) + reach;
+            farSquared_.push_back(far * far);
+        }
     }
 
     float height(const glm::vec3& p) const {
@@ -199,10 +202,10 @@ private:
     SpinePlace find(const glm::vec3& p) const {
         SpinePlace best;
         for (std::size_t i = 0; i + 1 < spine_.size(); ++i) {
-            const glm::vec3 a = spine_[i].center, d = spine_[i + 1].center - a;
-            const float far = arc_[i + 1] - arc_[i] + std::max(spine_[i].radius, spine_[i + 1].radius) + reach;
-            if (glm::dot(p - a, p - a) > far * far)
+            const glm::vec3 a = spine_[i].center;
+            if (glm::dot(p - a, p - a) > farSquared_[i])
                 continue;
+            const glm::vec3 d = spine_[i + 1].center - a;
             const float t = glm::clamp(glm::dot(p - a, d) / glm::dot(d, d), 0.f, 1.f);
             const glm::vec3 away = p - a - t * d;
             const float radius = glm::mix(spine_[i].radius, spine_[i + 1].radius, t);
@@ -214,8 +217,9 @@ private:
     }
 
     std::vector<TubePoint> spine_;
-    std::vector<float> arc_;    ///< mm from the tail's tip
-    std::vector<float> counts_; ///< scales in every row
+    std::vector<float> arc_;        ///< mm from the tail's tip
+    std::vector<float> counts_;     ///< scales in every row
+    std::vector<float> farSquared_; ///< mm²: what is further from where a piece of the spine begins, it does not reach
 };
 
 } // namespace
