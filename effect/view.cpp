@@ -19,6 +19,9 @@ struct Vector2 {
 vec2 toFloat(Vector2 v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y)};
 }
+vec4 toFloat(double x, double y, double z) {
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), 0};
+}
 
 /// Clip x and y are A·(x, y) + b(z); with A's inverse a pixel's ray is affine in the pixel's position.
 void setRays(ViewParameters& parameters, const Matrix& clip, const VkRect2D& area, double mmPerUnit,
@@ -37,15 +40,22 @@ void setRays(ViewParameters& parameters, const Matrix& clip, const VkRect2D& are
     const Vector2 step{2.0 / area.extent.width, 2.0 / area.extent.height};
     const Vector2 start{(1.0 - 2.0 * area.offset.x) / area.extent.width - 1.0,
                         (1.0 - 2.0 * area.offset.y) / area.extent.height - 1.0};
-    parameters.rayX = toFloat(solve({step.x * wz, 0}));
-    parameters.rayY = toFloat(solve({0, step.y * wz}));
-    parameters.rayBias = toFloat(solve({start.x * wz - clip(0, 2) / mmPerUnit, start.y * wz - clip(1, 2) / mmPerUnit}));
-    parameters.originX = toFloat(solve({step.x * w1, 0}));
-    parameters.originY = toFloat(solve({0, step.y * w1}));
-    parameters.originBias = toFloat(solve({start.x * w1 - clip(0, 3), start.y * w1 - clip(1, 3)}));
+    const Vector2 rayX = solve({step.x * wz, 0});
+    const Vector2 rayY = solve({0, step.y * wz});
+    const Vector2 ray = solve({start.x * wz - clip(0, 2) / mmPerUnit, start.y * wz - clip(1, 2) / mmPerUnit});
+    const Vector2 originX = solve({step.x * w1, 0});
+    const Vector2 originY = solve({0, step.y * w1});
+    const Vector2 origin = solve({start.x * w1 - clip(0, 3), start.y * w1 - clip(1, 3)});
+    parameters.rayX = toFloat(rayX);
+    parameters.rayY = toFloat(rayY);
+    parameters.rayBias = toFloat(ray);
+    parameters.originX = toFloat(originX);
+    parameters.originY = toFloat(originY);
+    parameters.originBias = toFloat(origin);
     parameters.clipW = toFloat({wz, w1});
-    const auto row = [&](int column) { return static_cast<float>(clip(2, column) / mmPerUnit); };
-    parameters.depthRow = {row(0), row(1), row(2), static_cast<float>(clip(2, 3))};
+    const auto clipZ = [&](Vector2 v) { return (clip(2, 0) * v.x + clip(2, 1) * v.y) / mmPerUnit; };
+    parameters.depthSlope = toFloat(clipZ(rayX), clipZ(rayY), clipZ(ray) + clip(2, 2) / mmPerUnit);
+    parameters.depthBias = toFloat(clipZ(originX), clipZ(originY), clipZ(origin) + clip(2, 3));
 }
 
 void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, const FieldName& field) {

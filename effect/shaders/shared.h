@@ -85,7 +85,8 @@ NACRE_CONSTANT flagHardwareDepth = 64u;
 struct ViewParameters {
     mat4 viewFromWorld; // rotation only
     mat4 worldFromView; // view space in mm -> world space in scene units
-    vec4 depthRow;      // clip z = dot(depthRow, vec4(position, 1))
+    // Clip z along a pixel's ray = depthSlope·z + depthBias, each of them x·pixel.x + y·pixel.y + z.
+    vec4 depthSlope, depthBias;
     vec2 rayX, rayY;
     vec2 rayBias, originBias;
     vec2 originX, originY;
@@ -214,12 +215,12 @@ struct LightParameters {
 };
 
 #ifdef __cplusplus
-static_assert(offsetof(ViewParameters, depthRow) == 128 && offsetof(ViewParameters, rayX) == 144 &&
-              offsetof(ViewParameters, clipW) == 192 && offsetof(ViewParameters, mmPerUnit) == 216 &&
-              sizeof(ViewParameters) == 240);
-static_assert(offsetof(ScatterParameters, pixelWidth) == 240 && offsetof(ScatterParameters, bankLevels) == 272 &&
-              sizeof(ScatterParameters) == 272 + 7 * sizeof(ivec4));
-static_assert(offsetof(TransmitParameters, normalOffset) == 240 && sizeof(TransmitParameters) == 256);
+static_assert(offsetof(ViewParameters, depthSlope) == 128 && offsetof(ViewParameters, rayX) == 160 &&
+              offsetof(ViewParameters, clipW) == 208 && offsetof(ViewParameters, mmPerUnit) == 232 &&
+              sizeof(ViewParameters) == 256);
+static_assert(offsetof(ScatterParameters, pixelWidth) == 256 && offsetof(ScatterParameters, bankLevels) == 288 &&
+              sizeof(ScatterParameters) == 288 + 7 * sizeof(ivec4));
+static_assert(offsetof(TransmitParameters, normalOffset) == 256 && sizeof(TransmitParameters) == 272);
 static_assert(offsetof(MaterialParameters, exchangeGroups) == 16 && sizeof(MaterialParameters) == 32);
 static_assert(offsetof(BruteTable, radial) == 16 * (1 + maxLayers) && sizeof(BruteTable) == 16 * 289);
 static_assert(sizeof(BrutePixel) == 48);

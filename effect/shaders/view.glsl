@@ -32,9 +32,8 @@ float viewZ(ivec2 pixel, float depth) {
     if (!hasFlag(flagHardwareDepth)) {
         return -depth * view.mmPerUnit;
     }
-    vec4 row = view.depthRow;
-    float slope = depth * view.clipW.x - dot(row.xyz, vec3(rayAt(pixel), 1.0));
-    return (dot(row.xy, originAt(pixel)) + row.w - depth * view.clipW.y) / slope;
+    vec3 place = vec3(pixel, 1.0);
+    return (dot(view.depthBias.xyz, place) - depth * view.clipW.y) / (depth * view.clipW.x - dot(view.depthSlope.xyz, place));
 }
 
 float viewZ(ivec2 pixel) {
@@ -72,12 +71,10 @@ vec4 distancesAlongRays(ivec2 first, vec4 depth) {
     vec4 stretch = middle + (x - 0.5) * change.x + (y - 0.5) * change.y;
     vec4 z = -depth * view.mmPerUnit;
     if (hasFlag(flagHardwareDepth)) {
-        vec4 row = view.depthRow;
-        vec2 origin = originAt(first);
-        vec4 slope = depth * view.clipW.x - dot(row.xyz, vec3(rayAt(first), 1.0)) - x * dot(row.xy, view.rayX) -
-                     y * dot(row.xy, view.rayY);
-        vec4 bias = dot(row.xy, origin) + row.w + x * dot(row.xy, view.originX) + y * dot(row.xy, view.originY);
-        z = (bias - depth * view.clipW.y) / slope;
+        vec3 place = vec3(first, 1.0);
+        vec4 slope = dot(view.depthSlope.xyz, place) + x * view.depthSlope.x + y * view.depthSlope.y;
+        vec4 bias = dot(view.depthBias.xyz, place) + x * view.depthBias.x + y * view.depthBias.y;
+        z = (bias - depth * view.clipW.y) / (depth * view.clipW.x - slope);
     }
     vec4 along = -z * stretch;
     bvec4 drawn = greaterThan(view.clipW.x * z + view.clipW.y, vec4(0.0));
