@@ -234,6 +234,13 @@ struct Quad {
     float depth;
 };
 
+// Threads of a part of the region follow one another, so that those of one that is an edge region end together.
+const int partThreads = threads / 4;
+ivec2 texelOf(int part, int index) {
+    ivec2 size = partSize / 2;
+    return size * ivec2(part & 1, part >> 1) + ivec2(index & (size.x - 1), index / size.x);
+}
+
 // Whether the material of one of a quad's pixels, counted row by row, is this one.
 bool hasMaterial(Quad quad, int i, uint material) {
     uint difference = (i < 2 ? quad.materials.x : quad.materials.y) ^ material * 0x10001u;
@@ -291,15 +298,15 @@ void main() {
         return;
     }
     int thread = int(gl_LocalInvocationIndex);
-    ivec2 texel = ivec2(gl_LocalInvocationID.xy);
+    int part = thread / partThreads;
+    ivec2 texel = texelOf(part, thread % partThreads);
     if (thread == 0) {
         roughLevels = 0u;
     }
     barrier();
     Quad quad = loadRegion(region, thread, texel);
     barrier();
-    uvec2 part = gl_LocalInvocationID.xy / uvec2(partSize / 2);
-    if ((edges >> (part.x + 2u * part.y) & 1u) != 0u) {
+    if ((edges >> part & 1u) != 0u) {
         return;
     }
     ivec2 first = region + 2 * texel;
