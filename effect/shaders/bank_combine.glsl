@@ -56,11 +56,6 @@ vec4 unpackLight(uvec2 words) {
     return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
 }
 
-// The light of one of a thread's pixels.
-vec4 ownLight(ivec2 thread, int i) {
-    return unpackLight(pixelLights[ownPlace(thread, ivec2(i & 1, i >> 1))]);
-}
-
 // A level's texels, from 2 on.
 struct LevelGrid {
     int width;   // px

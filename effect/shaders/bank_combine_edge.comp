@@ -74,7 +74,7 @@ void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
 
 // The identity.
 void addIdentity(inout Sum sum, vec3 weight, ivec2 local) {
-    add(sum, max(weight, vec3(bankLeastIdentity)), ownLight(local, 0));
+    add(sum, max(weight, vec3(bankLeastIdentity)), unpackLight(pixelLights[ownPlace(local, ivec2(0))]));
 }
 
 // Adds a kernel of light and area that were summed with depth weights over the surface within its reach.

@@ -122,7 +122,7 @@ void addWhole(inout Sum sum, vec3 weight, Light lights[4]) {
 void addPartial(inout Sum sum, vec3 weight, vec4 lights[4]) {
     weight *= 0.25 * (lights[0].a + lights[1].a + lights[2].a + lights[3].a);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        sum.light[i] += weight / max(lights[i].a, 1e-6) * lights[i].rgb;
+        sum.light[i] += weight / max(lights[i].a, bankLeastWeight) * lights[i].rgb;
     }
     sum.mass += weight;
 }
@@ -236,6 +236,8 @@ struct Quad {
 
 // Threads of a part of the region follow one another, so that those of one that is an edge region end together.
 const int partThreads = threads / 4;
+
+// A thread's quad, as a texel of level 1.
 ivec2 texelOf(int part, int index) {
     ivec2 size = partSize / 2;
     return size * ivec2(part & 1, part >> 1) + ivec2(index & (size.x - 1), index / size.x);
