@@ -1,6 +1,6 @@
-// Every combination of formats, projections, optional inputs and parts of images (stereo among them): techniques
-// against brute, and each against itself in the plainest formats and all of an image. contract_matrix_bank_test.cpp has
-// bank.
+// Every combination of projections, optional inputs and parts of images (stereo among them), in formats of which every
+// two meet: techniques against brute, and each against itself in the plainest formats and all of an image.
+// contract_matrix_bank_test.cpp has bank.
 #include "tests/gpu/support/matrix.hpp"
 
 using namespace nacre::tests;

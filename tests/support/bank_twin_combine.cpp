@@ -28,6 +28,9 @@ struct BankTwin::Seen {
 // The pixels of a 2x2 quad. In smooth regions they share its depth, for their weights and their texels' depth weights,
 // and a kernel's mass.
 void BankTwin::combineQuad(int firstX, int firstY, bool smooth) {
+    if (raw_[1].at(firstX / 2, firstY / 2)->mass <= 0) {
+        return;
+    }
     std::array<std::array<Seen, bankSize>, 4> seen;
     for (int i = 0; i < 4; ++i) {
         const int x = firstX + i % 2;
@@ -45,7 +48,7 @@ void BankTwin::combineQuad(int firstX, int firstY, bool smooth) {
         }
         for (auto& pixel : seen) {
             for (double& value : pixel[kernel].light) {
-                value *= mass / std::max(pixel[kernel].mass, 1e-6);
+                value *= mass / std::max<double>(pixel[kernel].mass, constants::bankLeastWeight);
             }
             pixel[kernel].mass = mass;
         }

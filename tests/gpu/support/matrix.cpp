@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace nacre::tests {
 namespace {
@@ -32,14 +34,15 @@ const char* name(MatrixPart part) {
 } // namespace
 
 std::vector<MatrixFormats> matrixFormats() {
+    constexpr std::pair<VkFormat, double> lights[] = {{VK_FORMAT_R32G32B32A32_SFLOAT, 2e-3},
+                                                      {VK_FORMAT_R16G16B16A16_SFLOAT, 3e-3},
+                                                      {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4e-2}};
+    constexpr VkFormat ids[] = {VK_FORMAT_R8_UINT, VK_FORMAT_R16_UINT};
+    constexpr VkFormat depths[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_D32_SFLOAT};
     std::vector<MatrixFormats> all;
-    for (const auto& [light, step] : {std::pair{VK_FORMAT_R32G32B32A32_SFLOAT, 2e-3},
-                                      {VK_FORMAT_R16G16B16A16_SFLOAT, 3e-3},
-                                      {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4e-2}}) {
-        for (const VkFormat id : {VK_FORMAT_R8_UINT, VK_FORMAT_R16_UINT}) {
-            for (const VkFormat depth : {VK_FORMAT_R32_SFLOAT, VK_FORMAT_D32_SFLOAT}) {
-                all.push_back({light, id, depth, step});
-            }
+    for (std::size_t light = 0; light < std::size(lights); ++light) {
+        for (std::size_t id = 0; id < std::size(ids); ++id) {
+            all.push_back({lights[light].first, ids[id], depths[(light + id) % 2], lights[light].second});
         }
     }
     return all;

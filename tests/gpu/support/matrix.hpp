@@ -18,7 +18,8 @@ struct MatrixFormats {
     VkFormat depth = VK_FORMAT_R32_SFLOAT; ///< linear; D32 holds hardware depth
     double step = 2e-3;                    ///< how far the light's format may be off
 };
-/// Every combination.
+/// Every two formats meet. Images are read one by one, so that three have nothing to do with each other that two have
+/// not; and a software device compiles every pass anew for each.
 std::vector<MatrixFormats> matrixFormats();
 
 struct MatrixCamera {
