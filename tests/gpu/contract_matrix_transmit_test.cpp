@@ -1,5 +1,6 @@
-// Transmit in every combination of formats, projections, optional images and parts of images (stereo among them),
-// against itself in the plainest formats and all of an image, and against the closed form where the thickness is given.
+// Transmit in every combination of projections, optional images and parts of images (stereo among them), in formats of
+// which every two meet, against itself in the plainest formats and all of an image, and against the closed form where
+// the thickness is given.
 #include "tests/gpu/support/matrix.hpp"
 
 #include <cmath>
