@@ -9,7 +9,6 @@
 #include "bank_combine_smooth.spv.h"
 #include "bank_combine_smooth_half.spv.h"
 #include "bank_reduce.spv.h"
-#include "bank_surfaces_blur.spv.h"
 #include "bank_surfaces_combine_edge.spv.h"
 #include "bank_surfaces_reduce.spv.h"
 
@@ -168,7 +167,7 @@ constexpr Pass withSeconds(Pass pass, const char* file, std::span<const std::uin
 }
 
 constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce", bank_surfaces_reduce_spv),
-                                   withSeconds(blurPass, "bank_surfaces_blur", bank_surfaces_blur_spv),
+                                   blurPass,
                                    withSeconds(edgePass, "bank_surfaces_combine_edge", bank_surfaces_combine_edge_spv),
                                    smoothPass};
 
@@ -197,7 +196,7 @@ VkDeviceSize bankSecondBytes(VkExtent2D maxExtent) {
         const VkExtent2D extent = levelExtent(maxExtent, level);
         texels += VkDeviceSize{extent.width} * extent.height;
     }
-    return 3 * sizeof(uvec2) * texels;
+    return sizeof(uvec4) * texels;
 }
 
 VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent) {

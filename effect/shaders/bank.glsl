@@ -29,9 +29,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
     uint quadAreas[]; // as quads: packAreas of the four pixels
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) BANK_ACCESS buffer BankSeconds {
-    // Three of each texel of levels 1 … secondLevels, only where it has a second surface (secondBit): the words of
-    // packRaw; from level 2 on, after the blur, packBlurred.
-    uvec2 secondTexels[];
+    uvec4 secondTexels[]; // levels 1 … secondLevels, as rawTexels: only where a texel has a second surface (secondBit)
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) BANK_ACCESS buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
@@ -49,8 +47,8 @@ const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a s
 const ivec2 partSize = ivec2(16, 8); // px, of an edge region; a smooth one is 2x2 of these
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
-const uint secondBit = secondLevels > 0 ? 0x4000u : 0u; // of a raw texel's last word: it has a second surface
-const uint massBits = 0x7fffu & ~secondBit;             // there; 0 = empty
+const uint massBits = 0x7fffu;   // of a raw texel's last word; 0 = empty
+const uint secondBit = 0x10000u; // there: it has a second surface; such texels need no material
 const uint fullMass = 0x3c00u;
 const uint signBit = 0x80000000u;
 
@@ -83,13 +81,13 @@ uvec4 packRaw(RawTexel texel) {
     uint mass = packHalf2x16(vec2(texel.dropped ? -texel.mass : texel.mass, 0.0));
     vec3 light = min(texel.light / max(texel.area, bankLeastWeight), vec3(maxHalf));
     return uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, texel.area)),
-                 floatBitsToUint(texel.depth), mass | texel.material << 16);
+                 floatBitsToUint(texel.depth), mass | (separateMaterials ? texel.material << 16 : 0u));
 }
 
 RawTexel unpackRaw(uvec4 words) {
     vec2 redGreen = unpackHalf2x16(words.x);
     vec2 blueArea = unpackHalf2x16(words.y);
-    float mass = unpackHalf2x16(words.w & ~secondBit).x;
+    float mass = unpackHalf2x16(words.w).x;
     return RawTexel(vec3(redGreen, blueArea.x) * blueArea.y, blueArea.y, abs(mass), uintBitsToFloat(words.z), words.w >> 16,
                     mass < 0.0);
 }

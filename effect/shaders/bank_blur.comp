@@ -19,7 +19,6 @@ const int loadedCount = pitch * (blockSize.y + 2 * reach);
 shared uvec2 lights[loadedCount];
 shared float depths[loadedCount]; // 0 = empty
 shared uint massesAndMaterials[loadedCount];
-shared uvec4 seconds[secondLevels > 0 ? loadedCount : 1]; // second surfaces of the texels that have one
 shared uint rough; // bits of roughness
 
 struct Block {
@@ -48,17 +47,16 @@ int loadedRows(Block block) {
 }
 
 // Bits of a block: texels with a step beside them or pixels left out; texels that are not wholly covered; any that are
-// covered at all; any with a second surface.
+// covered at all.
 const uint anyStep = 1u;
 const uint notFull = 2u;
 const uint anything = 4u;
-const uint anySecond = 8u;
 
 // Of a texel by itself …
 uint roughnessOf(uvec4 words) {
     // The mass, a half; with a sign something was left out.
     return ((words.w & 0xffffu) == fullMass ? 0u : notFull) | ((words.w & 0x8000u) != 0u ? anyStep : 0u) |
-           (words.z != 0u ? anything : 0u) | (secondLevels > 0 && (words.w & secondBit) != 0u ? anySecond : 0u);
+           (words.z != 0u ? anything : 0u);
 }
 
 int sharedIndex(ivec2 place) {
@@ -123,10 +121,6 @@ void loadBlock(Block block, int thread) {
         if (place.y < loadedRows(block)) {
             storeShared(place, words[i]);
             roughness |= roughnessOf(words[i]);
-            if (secondLevels > 0 && (words[i].w & secondBit) != 0u) {
-                int second = 3 * texelIndex(block.level, block.first - reach + place);
-                seconds[sharedIndex(place)] = uvec4(secondTexels[second], secondTexels[second + 1]);
-            }
         }
     }
     noteRoughness(roughness);
@@ -177,20 +171,10 @@ RawTexel texelAt(int index) {
     return unpackRaw(uvec4(lights[index], floatBitsToUint(depths[index]), massesAndMaterials[index]));
 }
 
-bool hasSecond(int index) {
-    return secondLevels > 0 && (rough & anySecond) != 0u && (massesAndMaterials[index] & secondBit) != 0u;
-}
-
 // Whether the texel at `neighbor` is a surface further from `depth` than a smooth one's neighbour would be.
 bool isStep(int neighbor, float depth, float limit) {
     float tap = depths[neighbor];
     return tap != 0.0 && abs(tap - depth) > limit;
-}
-
-// Where a texel's second kernel stands.
-BlurredTexel findSecond(int center) {
-    RawTexel own = unpackRaw(seconds[center]);
-    return BlurredTexel(vec3(0.0), 0.0, own.depth, own.material, true, true);
 }
 
 // Where a texel's kernel stands: its own surface or, where it is empty, its neighbours', so that light reaches across
@@ -240,23 +224,17 @@ void divide(inout BlurredTexel texel, Sums sums) {
     texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
 }
 
-void addTaps(inout Sums sums, int index, BlurredTexel surface, float kernel, float width) {
-    addTap(sums, texelAt(index), surface, kernel, width);
-    if (hasSecond(index)) {
-        addTap(sums, unpackRaw(seconds[index]), surface, kernel, width);
-    }
-}
-
 // The binomial's weights from the middle on.
 const float kernelTaps[3] = float[](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
 
-// Blurs a texel on one of its surfaces, whatever is around it.
-BlurredTexel blurTexel(int level, int center, BlurredTexel surface) {
+// Blurs a texel, whatever is around it.
+BlurredTexel blurTexel(int level, int center) {
+    BlurredTexel surface = findSurface(level, center);
     float width = texelWidth(level, surface.depth);
     Sums sums = Sums(vec3(0.0), 0.0);
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
-            addTaps(sums, center + x + y * pitch, surface, kernelTaps[abs(x)] * kernelTaps[abs(y)], width);
+            addTap(sums, texelAt(center + x + y * pitch), surface, kernelTaps[abs(x)] * kernelTaps[abs(y)], width);
         }
     }
     divide(surface, sums);
@@ -322,15 +300,6 @@ void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     }
 }
 
-// A texel's surface, and its second one if it has one.
-void blurRough(Block block, ivec2 local, int center) {
-    storeBlurred(block, local, blurTexel(block.level, center, findSurface(block.level, center)));
-    if (hasSecond(center)) {
-        int second = 3 * texelIndex(block.level, block.first + local);
-        secondTexels[second + 2] = packBlurred(blurTexel(block.level, center, findSecond(center)));
-    }
-}
-
 #include "bank_lists.glsl"
 
 void main() {
@@ -365,9 +334,6 @@ void main() {
         return;
     }
     int center = sharedIndex(local + reach);
-    if (separateMaterials || rough != anything) {
-        blurRough(block, local, center);
-    } else {
-        storeBlurred(block, local, blurPlain(block.level, center));
-    }
+    bool isPlain = !separateMaterials && rough == anything;
+    storeBlurred(block, local, isPlain ? blurPlain(block.level, center) : blurTexel(block.level, center));
 }

@@ -86,12 +86,9 @@ Corner cornerOf(LevelGrid grid, int level, ivec2 region, ivec2 local) {
     return Corner(placeOf(grid.places) + texel.y * levelPitch + texel.x, fraction, grid.step);
 }
 
-const float levelDepthVariance = secondLevels > 0 ? bankSurfacesLevelDepthVariance : bankLevelDepthVariance;
-const float levelAwayVariance = secondLevels > 0 ? bankSurfacesLevelAwayVariance : bankLevelAwayVariance;
-
 // What scales squared distances of a level for depthWeight.
 float levelScale(int level, float depth) {
-    return depthScale(texelWidth(level, depth), levelDepthVariance);
+    return depthScale(texelWidth(level, depth), bankLevelDepthVariance);
 }
 
 // Of a level's texel, without the sign.
@@ -105,7 +102,7 @@ vec4 levelLight(uvec2 words) {
 // `away`: weighted sum of how far the taps are behind the pixel, mm. `scale`: levelScale.
 float levelShare(float total, float away, float scale) {
     float normalization = 1.0 / max(total, bankLeastWeight);
-    return normalization * depthWeight(away * normalization, scale * (levelDepthVariance / levelAwayVariance));
+    return normalization * depthWeight(away * normalization, scale * (bankLevelDepthVariance / bankLevelAwayVariance));
 }
 
 // Writes those of the thread's pixels that are members of a group, which share a material. `local`: the first. The light

@@ -4,6 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 const bool isEdge = true;
+// Coarse levels that are not plain are weighed texel by texel as reduced, not as blurred.
+#ifdef SECOND_SURFACES
+const bool readsReduced = true;
+#else
+const bool readsReduced = false;
+#endif
 #include "bank_combine.glsl"
 
 // Of level 1's texels as reduced, beside fineLights. An empty one has no area.
@@ -20,11 +26,11 @@ void storeFine(int place, ivec2 texel, uvec4 words) {
         fineMaterials[place] = words.w >> 16;
     }
     if (secondLevels > 0) {
-        bool hasSecond = (words.w & secondBit) != 0u;
-        int second = 3 * texelIndex(1, texel);
-        fineSecondDepths[place] = hasSecond ? uintBitsToFloat(secondTexels[second + 1].x) : 0.0;
-        if (hasSecond) {
-            fineSecondLights[place] = secondTexels[second];
+        fineSecondDepths[place] = 0.0;
+        if ((words.w & secondBit) != 0u) {
+            uvec4 second = secondTexels[texelIndex(1, texel)];
+            fineSecondLights[place] = second.xy;
+            fineSecondDepths[place] = uintBitsToFloat(second.z);
         }
     }
 }
@@ -55,7 +61,9 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
     }
     if (isCoarse && thread % (threads / 2) < coarseCount) {
         storeLevelTexel(coarse, light);
-        storeSurfaces(coarse, surface, light);
+        if (!readsReduced) {
+            storeSurface(coarse, surface, light);
+        }
     }
     if (thread < ringCount) {
         storeFetched(region, ring, ringPixel);
@@ -110,8 +118,8 @@ vec4 finestTaps(int odd) {
     return odd != 0 ? vec4(1.0 / 4.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 12.0) : vec4(1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 4.0);
 }
 
-// `distance`: how far the tap is behind the pixel.
-void addFinestTap(inout vec4 lightAndArea, uvec2 words, float kernel, float distance, float scale) {
+// A texel as reduced, by its first two words. `distance`: how far it is behind the pixel.
+void addReducedTap(inout vec4 lightAndArea, uvec2 words, float kernel, float distance, float scale) {
     vec4 tap = unpackLight(words);
     float weight = depthWeight(distance, scale) * (kernel * tap.a);
     lightAndArea += weight * vec4(tap.rgb, 1.0);
@@ -130,9 +138,9 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
         [[unroll]] for (int x = 0; x < 4; ++x) {
             int index = first + y * finePitch + x;
             float kernel = !separateMaterials || exchanges(fineMaterials[index], material) ? tapsX[x] : 0.0;
-            addFinestTap(rowLightAndArea, fineLights[index], kernel, fineDepths[index] - depth, scale);
+            addReducedTap(rowLightAndArea, fineLights[index], kernel, fineDepths[index] - depth, scale);
             if (secondLevels > 0 && fineSecondDepths[index] > 0.0) {
-                addFinestTap(rowLightAndArea, fineSecondLights[index], kernel, fineSecondDepths[index] - depth, scale);
+                addReducedTap(rowLightAndArea, fineSecondLights[index], kernel, fineSecondDepths[index] - depth, scale);
             }
         }
         lightAndArea += tapsY[y] * rowLightAndArea;
@@ -167,11 +175,43 @@ void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, floa
             share = exchanges(levelMaterials[place], material) ? share : 0.0;
         }
         addTap(taps, share, levelLights[place], levelDepths[place] - depth, scale);
-        if (secondLevels > 0 && place < secondCount && secondDepths[place] < farAway) {
-            addTap(taps, share, secondLights[place], secondDepths[place] - depth, scale);
-        }
     }
     add(sum, weight, taps.light * levelShare(taps.total, taps.away, scale));
+}
+
+// Along an axis the 5x5 binomial and the bilinear reading of it are one kernel of six texels, which changes with where the
+// pixel lies between the middle two: its weights at the first, and by how much they change towards the second.
+const float reducedTaps[6] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0, 0.0);
+const float reducedChanges[6] = float[](-1.0 / 16.0, -3.0 / 16.0, -2.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0, 1.0 / 16.0);
+
+// Adds a level from its texels as reduced, each weighed by the pixel's own depth.
+void addReducedLevel(inout Sum sum, vec3 weight, int level, ivec2 pixel, vec2 fraction, float depth, uint material) {
+    float scale = depthScale(texelWidth(level, depth), bankReducedDepthVariance);
+    ivec2 first = (pixel - (1 << (level - 1)) >> level) - 2;
+    ivec2 last = levelExtent(level) - 1;
+    int columns[6];
+    float tapsX[6];
+    [[unroll]] for (int x = 0; x < 6; ++x) {
+        columns[x] = clamp(first.x + x, 0, last.x);
+        tapsX[x] = columns[x] == first.x + x ? fma(fraction.x, reducedChanges[x], reducedTaps[x]) : 0.0;
+    }
+    vec4 lightAndArea = vec4(0.0);
+    [[dont_unroll]] for (int y = max(0, -first.y); y < min(6, last.y - first.y + 1); ++y) {
+        int row = texelIndex(level, ivec2(0, first.y + y));
+        vec4 rowLightAndArea = vec4(0.0);
+        [[unroll]] for (int x = 0; x < 6; ++x) {
+            int index = row + columns[x];
+            uvec4 words = rawTexels[index];
+            float kernel = !separateMaterials || exchanges(words.w >> 16, material) ? tapsX[x] : 0.0;
+            addReducedTap(rowLightAndArea, words.xy, kernel, uintBitsToFloat(words.z) - depth, scale);
+            if (keepsSeconds(level) && (words.w & secondBit) != 0u) {
+                uvec4 second = secondTexels[index];
+                addReducedTap(rowLightAndArea, second.xy, kernel, uintBitsToFloat(second.z) - depth, scale);
+            }
+        }
+        lightAndArea += fma(fraction.y, reducedChanges[y], reducedTaps[y]) * rowLightAndArea;
+    }
+    addSurface(sum, weight, lightAndArea);
 }
 
 // Adds a level with bilinear weights.
@@ -191,6 +231,8 @@ void addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
             Corner corner = cornerOf(grid, level, region, local);
             if ((rough >> level & 1u) == 0u) {
                 addPlainLevel(sum, weight, corner);
+            } else if (readsReduced) {
+                addReducedLevel(sum, weight, level, region + local, corner.fraction, depth, material);
             } else {
                 addWeightedLevel(sum, weight, level, corner, depth, material);
             }

@@ -281,7 +281,7 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
     }
     if (thread < coarseCount) {
         storeLevelTexel(coarse, coarseLight);
-        storeSurfaces(coarse, coarseSurface, coarseLight);
+        storeSurface(coarse, coarseSurface, coarseLight);
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);

@@ -15,11 +15,10 @@ const int bankBinCount = 113;
 // Reduction: pixels of a 2x2 block further apart in depth than this many texel widths are two surfaces, and the texel
 // keeps the one with more light-receiving area.
 const float bankSurfaceSeparation = 3.0f;
-// With second surfaces, texels of the levels up to this one keep the other surface beside that one: what lies closer to the
-// nearest depth is one, the rest the other. With 1: −0.8 dB. With 2: −0.3 dB.
-const int bankSecondLevels = 3;
-// Level 1's separation with second surfaces: pixels are so narrow that a texel on a steep surface had better be two. With
-// 3: the mean is the same, −0.1 to −0.9 dB on the Stanford dragon.
+// With second surfaces, texels of the levels up to this one, the last of pass A, keep the other surface beside that one: what
+// lies closer to the nearest depth is one, the rest the other.
+const int bankSecondLevels = 4;
+// Level 1's separation with second surfaces: pixels are so narrow that a texel on a steep surface had better be two.
 const float bankFinestSeparation = 2.0f;
 // A depth step from a pixel to the next goes on as the step on the pixel's other side does, and their mean is the slope, when
 // it is at most this many times as long as that one, or as the pixel is wide. A 2x2 block with no longer steps, in it and
@@ -30,11 +29,12 @@ const float bankContinuedStep = 2.0f;
 const float bankBlurDepthVariance = 1.4f;
 // Combination, per level: q = Δz² / (bankLevelDepthVariance · t²), wider since the blur has already narrowed.
 const float bankLevelDepthVariance = 8.0f;
-const float bankSurfacesLevelDepthVariance = 5.0f; // with second surfaces, which take what the wider one was for
 // Combination, per level: where the taps' weighted mean depth is `away` texel widths from the pixel's, its share falls by
 // g(away² / bankLevelAwayVariance).
 const float bankLevelAwayVariance = 1.5f;
-const float bankSurfacesLevelAwayVariance = 2.0f; // with second surfaces
+// With second surfaces, levels from 2 on in edge regions, whose texels are weighed by a pixel's own depth: as for bankBlur…;
+// twice the kernel's variance, so that it is as wide in depth as across.
+const float bankReducedDepthVariance = 2.5f;
 // Combination, full-resolution 3x3 and, in edge regions, level 1: q = Δz² / (bankPixelDepthVariance · t²). For level 1 1.4 is
 // up to 1.5 dB worse on the models, and 3 up to 1.8 dB worse on one of them.
 const float bankPixelDepthVariance = 2.0f;
@@ -55,7 +55,6 @@ const float bankSmoothHoleDepth = 0.5f;
 // are, and the rest is a smooth one that leaves them out, which costs as much as an edge region. With 0 for `bank`: 3 us more on
 // thin bars (1920x1080, NVIDIA H200), up to 0.5 dB more on the Stanford dragon.
 const int bankMostEdgeParts = 2;
-const int bankSurfacesMostEdgeParts = 0; // with second surfaces; with 2: 6 us less
 // A pixel's own light weighs at least this: where hardly any of the other kernels is on its surface, its light stays.
 // Without, such a pixel can be black.
 const float bankLeastIdentity = 1.0f / 1024.0f;

@@ -26,8 +26,6 @@ uint roughBeside(ivec2 tile, bool lower) {
     return rows[tile.y + 1] * columns << 1;
 }
 
-const int mostEdgeParts = secondLevels > 0 ? bankSurfacesMostEdgeParts : bankMostEdgeParts;
-
 // What combines a region: bits of its parts that are edge regions, and whether the rest is a smooth one. Neither where no
 // pixel has a material.
 struct Combination {
@@ -51,7 +49,7 @@ Combination combinationOf(ivec2 region) {
         }
     }
     // Where materials are separate, pixels are combined tap by tap.
-    bool noneSmooth = separateMaterials || bitCount(rough) > mostEdgeParts;
+    bool noneSmooth = separateMaterials || bitCount(rough) > bankMostEdgeParts;
     uint edges = noneSmooth ? 15u : rough;
     return occupied == 0u ? Combination(0u, false) : Combination(edges, !noneSmooth);
 }

@@ -40,8 +40,7 @@ void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel) {
         seconds[place] = second;
         if (surfaces.second.mass > 0.0) {
             packed.w |= secondBit;
-            secondTexels[3 * index] = second.xy;
-            secondTexels[3 * index + 1] = second.zw;
+            secondTexels[index] = second;
         }
     }
     rawTexels[index] = packed;

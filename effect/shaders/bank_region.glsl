@@ -44,15 +44,10 @@ shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
 // Of level 1's texels as reduced: their first two words, light and area; in smooth regions light times mass, and mass.
 shared uvec2 fineLights[fineCount];
 shared uvec2 levelLights[coarseRoom]; // as blurredLights
-// Of the same texels' surfaces. Where none is near, and for second ones where there is none, depth is so far that it weighs
-// nothing.
+// Of the same texels' surfaces. Where none is near, depth is so far that it weighs nothing.
 const float farAway = 1e15;
 shared float levelDepths[coarseRoom];
 shared uint levelMaterials[isEdge && separateMaterials ? coarseRoom : 1];
-// Of the second surfaces, of levels 2 and 3, whose places are the first.
-const int secondCount = isEdge ? 40 : 0;
-shared uvec2 secondLights[isEdge && secondLevels > 0 ? secondCount : 1];
-shared float secondDepths[isEdge && secondLevels > 0 ? secondCount : 1];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
@@ -195,18 +190,10 @@ void storeLevelTexel(Coarse coarse, uvec2 light) {
     }
 }
 
-// A texel's surface, and its second one in edge regions.
-void storeSurfaces(Coarse coarse, uvec2 own, uvec2 light) {
+void storeSurface(Coarse coarse, uvec2 own, uvec2 light) {
     uvec2 surface = surfaceOf(coarse.index, own, light);
     levelDepths[coarse.place] = (surface.y & massBits) != 0u ? uintBitsToFloat(surface.x) : farAway;
     if (isEdge && separateMaterials) {
         levelMaterials[coarse.place] = surface.y >> 16;
-    }
-    if (isEdge && secondLevels > 0 && coarse.place < secondCount) {
-        bool hasSecond = (own.y & secondBit) != 0u;
-        secondDepths[coarse.place] = hasSecond ? uintBitsToFloat(secondTexels[3 * coarse.index + 1].x) : farAway;
-        if (hasSecond) {
-            secondLights[coarse.place] = secondTexels[3 * coarse.index + 2];
-        }
     }
 }

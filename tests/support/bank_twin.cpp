@@ -9,6 +9,9 @@ namespace nacre::tests {
 namespace {
 
 constexpr int tileSize = 32;  // px, as in effect/scatter_bank.cpp
+constexpr int blockWidth = 16; // of pass B, texels
+constexpr int blockHeight = 8;
+constexpr int coarsestRows = 2; // of a block of the coarsest level
 constexpr int partWidth = 16; // of pass C's edge regions, px; its smooth ones are 2x2 of them
 constexpr int partHeight = 8;
 
@@ -175,22 +178,62 @@ void BankTwin::reduceLevel(int level) {
 
 void BankTwin::blurLevel(int level) {
     TwinLevel<BlurredTexel>& to = blurred_[level];
-    TwinLevel<BlurredTexel>& seconds = blurredSeconds_[level];
-    seconds.width = to.width = raw_[level].width;
-    seconds.height = to.height = raw_[level].height;
-    for (int y = 0; y < to.height; ++y) {
-        for (int x = 0; x < to.width; ++x) {
-            const RawTexel& second = *rawSeconds_[level].at(x, y);
-            to.texels.push_back(blurTexel(level, x, y));
-            seconds.texels.push_back(second.mass > 0 ? blurAt(level, x, y, second.depth) : BlurredTexel{});
+    to.width = raw_[level].width;
+    to.height = raw_[level].height;
+    to.texels.resize(raw_[level].texels.size());
+    const int rows = level == bankLevels ? coarsestRows : blockHeight;
+    for (int y = 0; y < to.height; y += rows) {
+        for (int x = 0; x < to.width; x += blockWidth) {
+            blurBlock(level, x, y, std::min(x + blockWidth, to.width), std::min(y + rows, to.height));
         }
     }
 }
 
+// Where nothing within reach of a block is missing or left out, nothing is missing of its kernels, however steep they stand.
+void BankTwin::blurBlock(int level, int firstX, int firstY, int endX, int endY) {
+    const int rows = level == bankLevels ? coarsestRows : blockHeight;
+    bool whole = true;
+    for (int y = firstY - 2; y < firstY + rows + 2; ++y) {
+        for (int x = firstX - 2; x < firstX + blockWidth + 2; ++x) {
+            const RawTexel* texel = raw_[level].at(x, y);
+            whole = whole && texel != nullptr && texel->mass == 1 && !texel->dropped;
+        }
+    }
+    for (int y = firstY - 2; whole && y < firstY + rows + 2; ++y) {
+        for (int x = firstX - 2; x < firstX + blockWidth + 2; ++x) {
+            const bool hasRight = x + 1 < firstX + blockWidth + 2;
+            const bool hasBelow = y + 1 < firstY + rows + 2;
+            whole = whole && !(hasRight && isStep(level, x, y, x + 1, y)) && !(hasBelow && isStep(level, x, y, x, y + 1));
+        }
+    }
+    for (int y = firstY; y < endY; ++y) {
+        for (int x = firstX; x < endX; ++x) {
+            BlurredTexel& texel = blurred_[level].texels[static_cast<std::size_t>(y) * blurred_[level].width + x];
+            texel = blurTexel(level, x, y);
+            if (whole) {
+                for (double& value : texel.light) {
+                    value /= texel.mass;
+                }
+                texel.mass = 1;
+            }
+        }
+    }
+}
+
+// Whether two full texels beside each other are on different surfaces, or on a steep one.
+bool BankTwin::isStep(int level, int x, int y, int besideX, int besideY) const {
+    const double depth = raw_[level].at(x, y)->depth;
+    const double difference = std::abs(raw_[level].at(besideX, besideY)->depth - depth);
+    return difference > constants::bankSmoothDepth * texelWidth(level, depth);
+}
+
 BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
     const TwinLevel<RawTexel>& raw = raw_[level];
-    if (raw.at(x, y)->mass > 0) {
-        return blurAt(level, x, y, raw.at(x, y)->depth);
+    const RawTexel& own = *raw.at(x, y);
+    if (own.mass > 0) {
+        BlurredTexel texel = blurAt(level, x, y, own.depth);
+        texel.plain = !own.dropped && isPlain(level, x, y, own.depth);
+        return texel;
     }
     // An empty texel stands on the surface its neighbours are on.
     double mass = 0;
@@ -200,20 +243,35 @@ BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
         mass += tap != nullptr ? tap->mass : 0;
         sum += tap != nullptr ? tap->mass * tap->depth : 0;
     }
-    return mass > 0 ? blurAt(level, x, y, sum / mass) : BlurredTexel{};
+    if (mass <= 0) {
+        return {};
+    }
+    BlurredTexel texel = blurAt(level, x, y, sum / mass);
+    texel.plain = isPlain(level, x, y, sum / mass);
+    return texel;
+}
+
+// Whether no texel beside one is on another surface, or on this one's steep side.
+bool BankTwin::isPlain(int level, int x, int y, double depth) const {
+    const double limit = constants::bankSmoothDepth * texelWidth(level, depth);
+    for (int i = 1; i < 9; i += 2) {
+        const RawTexel* beside = raw_[level].at(x + i % 3 - 1, y + i / 3 - 1);
+        if (beside != nullptr && beside->mass > 0 && std::abs(beside->depth - depth) > limit) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // A texel's kernel where it stands on a surface at this depth.
 BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
-    constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
     const double width = texelWidth(level, depth);
     SurfaceSum sum;
-    for (int i = 0; i < 50; ++i) {
-        const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
-        sum.add(raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth,
+    for (int i = 0; i < 25; ++i) {
+        sum.add(raw_[level].at(x + i % 5 - 2, y + i / 5 - 2), binomial[i % 5] * binomial[i / 5], depth,
                 constants::bankBlurDepthVariance * width * width);
     }
-    return {sum.lightOfMass(), sum.mass(), depth};
+    return {sum.lightOfMass(), sum.mass(), depth, false};
 }
 
 // Whether a 2x2 block of pixels, with those beside it, has a depth step or left something out.
@@ -252,17 +310,41 @@ bool BankTwin::isEdgePart(int firstX, int firstY) const {
     return !settings_.smoothTiles;
 }
 
+// Levels of which a region loads a texel that is not plain.
+unsigned BankTwin::roughLevels(int firstX, int firstY, int width, int height) const {
+    unsigned rough = 0;
+    for (int level = 2; level <= bankLevels; ++level) {
+        const TwinLevel<BlurredTexel>& blurred = blurred_[level];
+        const int texel = 1 << level;
+        const int columns = width / texel + 2;
+        const int rows = height / texel + 2;
+        for (int i = 0; i < columns * rows; ++i) {
+            const int x = ((firstX - texel / 2) >> level) + i % columns;
+            const int y = ((firstY - texel / 2) >> level) + i / columns;
+            const BlurredTexel* loaded =
+                blurred.at(std::clamp(x, 0, blurred.width - 1), std::clamp(y, 0, blurred.height - 1));
+            rough |= loaded->plain ? 0u : 1u << level;
+        }
+    }
+    return rough;
+}
+
 // Combines the pixels of a smooth region, and of its parts that are edge regions.
 void BankTwin::combineRegion(int firstX, int firstY) {
     std::array<bool, 4> edges{};
+    std::array<Region, 4> edgeRegions;
     for (int part = 0; part < 4; ++part) {
-        edges[part] = isEdgePart(firstX + part % 2 * partWidth, firstY + part / 2 * partHeight);
+        const int x = firstX + part % 2 * partWidth;
+        const int y = firstY + part / 2 * partHeight;
+        edges[part] = isEdgePart(x, y);
+        edgeRegions[part] = {false, roughLevels(x, y, partWidth, partHeight)};
     }
-    const int most = settings_.secondSurfaces ? constants::bankSurfacesMostEdgeParts : constants::bankMostEdgeParts;
-    const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > most;
+    const Region smooth{true, roughLevels(firstX, firstY, 2 * partWidth, 2 * partHeight)};
+    const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > constants::bankMostEdgeParts;
     for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); y += 2) {
         for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); x += 2) {
-            combineQuad(x, y, !noneSmooth && !edges[(x - firstX) / partWidth + 2 * ((y - firstY) / partHeight)]);
+            const int part = (x - firstX) / partWidth + 2 * ((y - firstY) / partHeight);
+            combineQuad(x, y, noneSmooth || edges[part] ? edgeRegions[part] : smooth);
         }
     }
 }

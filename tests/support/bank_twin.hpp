@@ -29,6 +29,7 @@ struct BlurredTexel {
     Rgb light{};      ///< mean irradiance · mass
     double mass = 0;  ///< [0, 1] share of the kernel that lies on the surface
     double depth = 0; ///< mm; 0 where nothing is near
+    bool plain = false; ///< there is a surface, without a step beside it or pixels left out
 };
 
 template <typename Texel> struct TwinLevel {
@@ -54,27 +55,38 @@ public:
 
 private:
     struct Seen;
+    /// What is combined together: a smooth region, or an edge region.
+    struct Region {
+        bool smooth = false;
+        unsigned roughLevels = 0; ///< bit l: some texel of level l in reach is not plain
+    };
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
     bool hasSeconds(int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
+    void blurBlock(int level, int firstX, int firstY, int endX, int endY);
+    bool isStep(int level, int x, int y, int besideX, int besideY) const;
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
     bool isRough(int blockX, int blockY) const;
     bool isEdgePart(int firstX, int firstY) const;
     void combineRegion(int firstX, int firstY);
-    void combineQuad(int firstX, int firstY, bool smooth);
+    bool isPlain(int level, int x, int y, double depth) const;
+    unsigned roughLevels(int firstX, int firstY, int width, int height) const;
+    void combineQuad(int firstX, int firstY, const Region& region);
     bool isMember(int x, int y) const;
     double depthOf(int x, int y, bool smooth) const;
-    Seen seenBy(int kernel, int x, int y, bool smooth) const;
+    Seen seenBy(int kernel, int x, int y, const Region& region) const;
     void combinePixel(int x, int y, bool smooth, std::span<const Seen, bankSize> seen);
     Seen pixels(int x, int y) const;
     std::array<double, 2> slopeFalloffs(int x, int y) const;
     Seen finest(int x, int y) const;
     Seen finestOnSlope(int x, int y) const;
     Seen pixelsOnSlope(int x, int y) const;
+    Seen plainLevel(int level, int x, int y) const;
     Seen levelSeen(int level, int x, int y, bool smooth) const;
+    Seen reducedSeen(int level, int x, int y) const;
     double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
@@ -86,7 +98,6 @@ private:
     std::array<TwinLevel<RawTexel>, bankLevels + 1> raw_;        ///< level 0 is the image
     std::array<TwinLevel<RawTexel>, bankLevels + 1> rawSeconds_; ///< of the levels that keep a second surface
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurred_;
-    std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurredSeconds_;
     int tilesX_ = 0;
     int tilesY_ = 0;
     std::vector<Rgb> result_;

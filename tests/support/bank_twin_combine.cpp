@@ -27,7 +27,8 @@ struct BankTwin::Seen {
 
 // The pixels of a 2x2 quad. In smooth regions they share its depth, for their weights and their texels' depth weights,
 // and a kernel's mass.
-void BankTwin::combineQuad(int firstX, int firstY, bool smooth) {
+void BankTwin::combineQuad(int firstX, int firstY, const Region& region) {
+    const bool smooth = region.smooth;
     if (raw_[1].at(firstX / 2, firstY / 2)->mass <= 0) {
         return;
     }
@@ -37,7 +38,7 @@ void BankTwin::combineQuad(int firstX, int firstY, bool smooth) {
         const int y = firstY + i / 2;
         if (smooth || isMember(x, y)) {
             for (int kernel = 1; kernel < bankSize; ++kernel) {
-                seen[i][kernel] = seenBy(kernel, x, y, smooth);
+                seen[i][kernel] = seenBy(kernel, x, y, region);
             }
         }
     }
@@ -70,14 +71,19 @@ double BankTwin::depthOf(int x, int y, bool smooth) const {
     return smooth ? raw_[1].at(x / 2, y / 2)->depth : raw_[0].at(x, y)->depth;
 }
 
-BankTwin::Seen BankTwin::seenBy(int kernel, int x, int y, bool smooth) const {
+BankTwin::Seen BankTwin::seenBy(int kernel, int x, int y, const Region& region) const {
+    const bool smooth = region.smooth;
     switch (kernel) {
     case 1:
         return smooth ? pixelsOnSlope(x, y) : pixels(x, y);
     case 2:
         return smooth ? finestOnSlope(x, y) : finest(x, y);
     default:
-        return levelSeen(kernel - 1, x, y, smooth);
+        if ((region.roughLevels >> (kernel - 1) & 1) == 0) {
+            return plainLevel(kernel - 1, x, y);
+        }
+        return settings_.secondSurfaces && !smooth ? reducedSeen(kernel - 1, x, y)
+                                                   : levelSeen(kernel - 1, x, y, smooth);
     }
 }
 
@@ -181,31 +187,77 @@ BankTwin::Seen BankTwin::finest(int x, int y) const {
 }
 
 BankTwin::Seen BankTwin::pixels(int x, int y) const {
-    constexpr double binomial[] = {0.25, 0.5, 0.25};
+    constexpr double taps[] = {0.25, 0.5, 0.25};
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
     SurfaceSum surface;
     for (int i = 0; i < 9; ++i) {
-        surface.add(raw_[0].at(x + i % 3 - 1, y + i / 3 - 1), binomial[i % 3] * binomial[i / 3], depth,
+        surface.add(raw_[0].at(x + i % 3 - 1, y + i / 3 - 1), taps[i % 3] * taps[i / 3], depth,
                     constants::bankPixelDepthVariance * width * width);
     }
     return {surface.lightOfMass(), surface.mass()};
+}
+
+// A coarse level as a pixel of an edge region sees it where texels keep two surfaces: as reduced, by its own depth.
+BankTwin::Seen BankTwin::reducedSeen(int level, int x, int y) const {
+    const double depth = raw_[0].at(x, y)->depth;
+    const double width = texelWidth(level, depth);
+    const double positionX = (x + 0.5) / (1 << level) - 0.5;
+    const double positionY = (y + 0.5) / (1 << level) - 0.5;
+    const int firstX = static_cast<int>(std::floor(positionX)) - 2;
+    const int firstY = static_cast<int>(std::floor(positionY)) - 2;
+    // The binomial, read bilinearly, of six texels along an axis.
+    const auto taps = [](double fraction) {
+        std::array<double, 6> result{};
+        for (int i = 0; i < 5; ++i) {
+            result[i] += (1 - fraction) * binomial[i];
+            result[i + 1] += fraction * binomial[i];
+        }
+        return result;
+    };
+    const std::array<double, 6> tapsX = taps(positionX - firstX - 2);
+    const std::array<double, 6> tapsY = taps(positionY - firstY - 2);
+    SurfaceSum surface;
+    for (int i = 0; i < 72; ++i) {
+        const TwinLevel<RawTexel>& raw = i < 36 ? raw_[level] : rawSeconds_[level];
+        surface.add(raw.at(firstX + i % 6, firstY + i / 6 % 6), tapsX[i % 6] * tapsY[i / 6 % 6], depth,
+                    constants::bankReducedDepthVariance * width * width);
+    }
+    return {surface.lightOfMass(), surface.mass()};
+}
+
+// A level read with bilinear weights alone.
+BankTwin::Seen BankTwin::plainLevel(int level, int x, int y) const {
+    const TwinLevel<BlurredTexel>& blurred = blurred_[level];
+    const double positionX = (x + 0.5) / (1 << level) - 0.5;
+    const double positionY = (y + 0.5) / (1 << level) - 0.5;
+    const int firstX = static_cast<int>(std::floor(positionX));
+    const int firstY = static_cast<int>(std::floor(positionY));
+    Seen seen;
+    for (int i = 0; i < 4; ++i) {
+        const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
+        const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
+        const BlurredTexel& tap = *blurred.at(tapX, tapY);
+        const double weight = (i % 2 == 1 ? positionX - firstX : 1 - positionX + firstX) *
+                              (i / 2 == 1 ? positionY - firstY : 1 - positionY + firstY);
+        for (int channel = 0; channel < 3; ++channel) {
+            seen.light[channel] += weight * tap.light[channel];
+        }
+        seen.mass += weight * tap.mass;
+    }
+    return seen;
 }
 
 BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     const TwinLevel<BlurredTexel>& blurred = blurred_[level];
     const double depth = depthOf(x, y, smooth);
     const double width = texelWidth(level, depth);
-    const double depthVariance =
-        settings_.secondSurfaces ? constants::bankSurfacesLevelDepthVariance : constants::bankLevelDepthVariance;
-    const double awayVariance =
-        settings_.secondSurfaces ? constants::bankSurfacesLevelAwayVariance : constants::bankLevelAwayVariance;
     const double positionX = (x + 0.5) / (1 << level) - 0.5;
     const double positionY = (y + 0.5) / (1 << level) - 0.5;
     const int firstX = static_cast<int>(std::floor(positionX));
     const int firstY = static_cast<int>(std::floor(positionY));
     const auto placeWeight = [&](int i, double atX, double atY) {
-        return (i % 2 == 1 ? atX - firstX : 1 - atX + firstX) * (i / 2 % 2 == 1 ? atY - firstY : 1 - atY + firstY);
+        return (i % 2 == 1 ? atX - firstX : 1 - atX + firstX) * (i / 2 == 1 ? atY - firstY : 1 - atY + firstY);
     };
     // What the level's share is taken at: in smooth regions the middle of the quad.
     const double middleX = smooth ? (x / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionX;
@@ -213,12 +265,12 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     Seen seen;
     double total = 0;
     double away = 0; // of the texels' surface from the pixel's, mm
-    for (int i = 0; i < (smooth ? 4 : 8); ++i) {
+    for (int i = 0; i < 4; ++i) {
         const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
-        const int tapY = std::clamp(firstY + i / 2 % 2, 0, blurred.height - 1);
-        const BlurredTexel& tap = *(i < 4 ? blurred : blurredSeconds_[level]).at(tapX, tapY);
+        const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
+        const BlurredTexel& tap = *blurred.at(tapX, tapY);
         const double difference = tap.depth - depth;
-        const double q = difference * difference / (depthVariance * width * width);
+        const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
         const double depthWeight = tap.depth > 0 ? falloff(q) : 0;
         const double tapWeight = placeWeight(i, positionX, positionY) * depthWeight;
         const double middleWeight = placeWeight(i, middleX, middleY) * depthWeight;
@@ -231,7 +283,7 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     }
     total = std::max<double>(total, constants::bankLeastWeight);
     const double distance = away / total / width;
-    const double share = falloff(distance * distance / awayVariance);
+    const double share = falloff(distance * distance / constants::bankLevelAwayVariance);
     for (double& value : seen.light) {
         value *= share / total;
     }

@@ -26,6 +26,8 @@ inline double massOf(double area) {
     return std::min(area, 1.0);
 }
 
+inline constexpr double binomial[] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
+
 /// Light and area of the surface within a kernel's reach.
 struct SurfaceSum {
     Rgb light{};
