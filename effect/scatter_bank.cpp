@@ -166,8 +166,7 @@ constexpr Pass withSeconds(Pass pass, const char* file, std::span<const std::uin
     return pass;
 }
 
-constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce", bank_surfaces_reduce_spv),
-                                   blurPass,
+constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce", bank_surfaces_reduce_spv), blurPass,
                                    withSeconds(edgePass, "bank_surfaces_combine_edge", bank_surfaces_combine_edge_spv),
                                    smoothPass};
 

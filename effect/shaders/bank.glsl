@@ -48,7 +48,7 @@ const ivec2 partSize = ivec2(16, 8); // px, of an edge region; a smooth one is 2
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
 const uint massBits = 0x7fffu;   // of a raw texel's last word; 0 = empty
-const uint secondBit = 0x10000u; // there: it has a second surface; such texels need no material
+const uint secondBit = 0x10000u; // there, where materials are not separate and it holds none: it has a second surface
 const uint fullMass = 0x3c00u;
 const uint signBit = 0x80000000u;
 

@@ -4,13 +4,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 const bool isEdge = true;
-// Coarse levels that are not plain are weighed texel by texel as reduced, not as blurred.
-#ifdef SECOND_SURFACES
-const bool readsReduced = true;
-#else
-const bool readsReduced = false;
-#endif
 #include "bank_combine.glsl"
+
+// With second surfaces, coarse levels that are not plain are weighed texel by texel as reduced, not as blurred.
+const bool readsReduced = secondLevels > 0;
 
 // Of level 1's texels as reduced, beside fineLights. An empty one has no area.
 shared float fineDepths[fineCount];
@@ -185,7 +182,7 @@ const float reducedTaps[6] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 1
 const float reducedChanges[6] = float[](-1.0 / 16.0, -3.0 / 16.0, -2.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0, 1.0 / 16.0);
 
 // Adds a level from its texels as reduced, each weighed by the pixel's own depth.
-void addReducedLevel(inout Sum sum, vec3 weight, int level, ivec2 pixel, vec2 fraction, float depth, uint material) {
+void addReducedLevel(inout Sum sum, vec3 weight, int level, ivec2 pixel, vec2 fraction, float depth) {
     float scale = depthScale(texelWidth(level, depth), bankReducedDepthVariance);
     ivec2 first = (pixel - (1 << (level - 1)) >> level) - 2;
     ivec2 last = levelExtent(level) - 1;
@@ -202,11 +199,10 @@ void addReducedLevel(inout Sum sum, vec3 weight, int level, ivec2 pixel, vec2 fr
         [[unroll]] for (int x = 0; x < 6; ++x) {
             int index = row + columns[x];
             uvec4 words = rawTexels[index];
-            float kernel = !separateMaterials || exchanges(words.w >> 16, material) ? tapsX[x] : 0.0;
-            addReducedTap(rowLightAndArea, words.xy, kernel, uintBitsToFloat(words.z) - depth, scale);
+            addReducedTap(rowLightAndArea, words.xy, tapsX[x], uintBitsToFloat(words.z) - depth, scale);
             if (keepsSeconds(level) && (words.w & secondBit) != 0u) {
                 uvec4 second = secondTexels[index];
-                addReducedTap(rowLightAndArea, second.xy, kernel, uintBitsToFloat(second.z) - depth, scale);
+                addReducedTap(rowLightAndArea, second.xy, tapsX[x], uintBitsToFloat(second.z) - depth, scale);
             }
         }
         lightAndArea += fma(fraction.y, reducedChanges[y], reducedTaps[y]) * rowLightAndArea;
@@ -232,7 +228,7 @@ void addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
             if ((rough >> level & 1u) == 0u) {
                 addPlainLevel(sum, weight, corner);
             } else if (readsReduced) {
-                addReducedLevel(sum, weight, level, region + local, corner.fraction, depth, material);
+                addReducedLevel(sum, weight, level, region + local, corner.fraction, depth);
             } else {
                 addWeightedLevel(sum, weight, level, corner, depth, material);
             }

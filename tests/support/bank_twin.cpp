@@ -8,11 +8,11 @@
 namespace nacre::tests {
 namespace {
 
-constexpr int tileSize = 32;  // px, as in effect/scatter_bank.cpp
+constexpr int tileSize = 32;   // px, as in effect/scatter_bank.cpp
 constexpr int blockWidth = 16; // of pass B, texels
 constexpr int blockHeight = 8;
 constexpr int coarsestRows = 2; // of a block of the coarsest level
-constexpr int partWidth = 16; // of pass C's edge regions, px; its smooth ones are 2x2 of them
+constexpr int partWidth = 16;   // of pass C's edge regions, px; its smooth ones are 2x2 of them
 constexpr int partHeight = 8;
 
 // What a 2x2 block of texels becomes: those of one surface. Levels that keep a second surface have up to eight.
@@ -189,7 +189,8 @@ void BankTwin::blurLevel(int level) {
     }
 }
 
-// Where nothing within reach of a block is missing or left out, nothing is missing of its kernels, however steep they stand.
+// Where nothing within reach of a block is missing or left out, nothing is missing of its kernels, however steep they
+// stand.
 void BankTwin::blurBlock(int level, int firstX, int firstY, int endX, int endY) {
     const int rows = level == bankLevels ? coarsestRows : blockHeight;
     bool whole = true;
@@ -203,7 +204,8 @@ void BankTwin::blurBlock(int level, int firstX, int firstY, int endX, int endY) 
         for (int x = firstX - 2; x < firstX + blockWidth + 2; ++x) {
             const bool hasRight = x + 1 < firstX + blockWidth + 2;
             const bool hasBelow = y + 1 < firstY + rows + 2;
-            whole = whole && !(hasRight && isStep(level, x, y, x + 1, y)) && !(hasBelow && isStep(level, x, y, x, y + 1));
+            whole =
+                whole && !(hasRight && isStep(level, x, y, x + 1, y)) && !(hasBelow && isStep(level, x, y, x, y + 1));
         }
     }
     for (int y = firstY; y < endY; ++y) {

@@ -26,9 +26,9 @@ struct RawTexel {
 
 /// A texel of the blurred pyramid.
 struct BlurredTexel {
-    Rgb light{};      ///< mean irradiance · mass
-    double mass = 0;  ///< [0, 1] share of the kernel that lies on the surface
-    double depth = 0; ///< mm; 0 where nothing is near
+    Rgb light{};        ///< mean irradiance · mass
+    double mass = 0;    ///< [0, 1] share of the kernel that lies on the surface
+    double depth = 0;   ///< mm; 0 where nothing is near
     bool plain = false; ///< there is a surface, without a step beside it or pixels left out
 };
 

@@ -40,7 +40,7 @@ TEST(BankTwin, IsCloseToTheReference) {
 
 // The first seed is bank_quality_test's.
 TEST(BankTwin, IsCloserWithSecondSurfaces) {
-    expectCloseness(7, {.secondSurfaces = true}, 44, 53.5);
+    expectCloseness(7, {.secondSurfaces = true}, 46, 54.5);
 }
 
 TEST(ScatterScenes, LieBeforeTheCamera) {
