@@ -266,8 +266,7 @@ bool givesLight(uint from, uint to) {
 
 // Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
 float separationAt(int level, float nearest) {
-    float separation = level == 1 && secondLevels > 0 ? bankFinestSeparation : bankSurfaceSeparation;
-    return separation * texelWidth(level, nearest);
+    return (secondLevels > 0 ? bankSecondSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
 }
 
 // Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.

@@ -229,7 +229,8 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
     if (!plain) {
         reduced = reduceAny(block, sides);
         bool rough = reduced.texel.dropped || isRough(block, sides);
-        uint bits = (rough ? tileRough(texel) : 0u) | (reduced.texel.mass < 1.0 ? notFull : 0u);
+        bool isPart = secondLevels > 0 || reduced.texel.mass < 1.0;
+        uint bits = (rough ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
         if (bits != 0u) {
             atomicOr(roughness, bits);
         }

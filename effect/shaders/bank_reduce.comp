@@ -21,7 +21,8 @@ const int pitch = tileSize + 2;
 shared float depths[pitch * pitch];
 shared uint occupied; // whether some pixel has an id
 shared uint roughness; // tileRough of the tile's blocks, and notFull
-const uint notFull = 1u; // a pixel of some block is on no surface, or on another than the block's
+// A pixel of some block is on no surface, or on another than the block's. With second surfaces: some block is not plain.
+const uint notFull = 1u;
 
 #include "bank_block.glsl"
 
@@ -97,8 +98,9 @@ void storeMean(int level, ivec2 texel, WholeSum sum, float share) {
 }
 
 // The coarser levels of a whole tile: levels 2 and 3 at once, by different subgroups, both from level 1. No pixel is missing
-// and no step from pixel to pixel is longer than bankSmoothDepth pixel widths, so that the four that a texel is made of are
-// no further apart than bankSurfaceSeparation times its width: one surface on every level.
+// and no step from pixel to pixel is longer than bankSmoothDepth pixel widths (with second surfaces: bankContinuedStep), so that
+// the four that a texel is made of are no further apart than bankSurfaceSeparation (bankSecondSeparation) times its width: one
+// surface on every level.
 void reduceWholeTile(ivec2 tile, int thread) {
     if (thread < 16) {
         ivec2 texel = ivec2(thread & 3, thread >> 2);
