@@ -1,4 +1,5 @@
-// What technique `bank` owes beyond its error: energy, stillness in motion, no leaks at any level of the pyramid.
+// What techniques `bank` and `bank-surfaces` owe beyond their error: energy, stillness in motion, no leaks at any level
+// of the pyramid.
 #include "tests/gpu/support/scene_input.hpp"
 
 #include <cmath>
@@ -8,28 +9,34 @@
 namespace nacre::tests {
 namespace {
 
-class BankBehaviourTest : public GpuTest {
+class BankBehaviourTest : public GpuTest, public ::testing::WithParamInterface<NacreTechnique> {
 protected:
     std::unique_ptr<Effect> makeEffect(const ScatterScene& scene) { return makeEffect(scene, gpu.shaderFloat16); }
     std::unique_ptr<Effect> makeEffect(const ScatterScene& scene, VkBool32 shaderFloat16) {
         NacreContextInfo info = gpu.contextInfo({512, 512});
-        info.techniques = 1u << NACRE_TECHNIQUE_BANK;
+        info.techniques = 1u << GetParam();
         info.shaderFloat16 = shaderFloat16;
         auto effect = std::make_unique<Effect>(gpu, info);
         effect->setMaterials(scene.materials);
         return effect;
     }
     std::vector<Float4> scatter(Effect& effect, const ScatterScene& scene) {
-        return effect.scatter(toInput(scene), NACRE_TECHNIQUE_BANK);
+        return effect.scatter(toInput(scene), GetParam());
     }
 };
+
+INSTANTIATE_TEST_SUITE_P(Techniques, BankBehaviourTest,
+                         ::testing::Values(NACRE_TECHNIQUE_BANK, NACRE_TECHNIQUE_BANK_SURFACES),
+                         [](const auto& technique) {
+                             return technique.param == NACRE_TECHNIQUE_BANK ? "Bank" : "BankSurfaces";
+                         });
 
 double decibels(double squares, double count) {
     return -10 * std::log10(squares / count + 1e-12);
 }
 
 // A plane of one material with lit discs far from the border: as much light leaves as enters.
-TEST_F(BankBehaviourTest, LightIsNeitherLostNorMade) {
+TEST_P(BankBehaviourTest, LightIsNeitherLostNorMade) {
     for (const Material& material : testMaterials()) {
         for (const double footprint : {4.0, 20.0, 60.0}) {
             ScatterScene scene =
@@ -62,7 +69,7 @@ TEST_F(BankBehaviourTest, LightIsNeitherLostNorMade) {
 }
 
 // Every kind of edge, every level in use, neighbours a million times as bright.
-TEST_F(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels) {
+TEST_P(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels) {
     for (const SceneKind kind : allSceneKinds) {
         for (const double footprint : {4.0, 60.0}) {
             ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .width = 192, .height = 108});
@@ -87,7 +94,7 @@ TEST_F(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels)
 }
 
 // The picture of a scene that moves by whole pixels against the pyramid's grid stays the same picture.
-TEST_F(BankBehaviourTest, MovingByPixelsChangesLittle) {
+TEST_P(BankBehaviourTest, MovingByPixelsChangesLittle) {
     for (const SceneKind kind : allSceneKinds) {
         for (const double footprint : {20.0, 60.0}) {
             const int margin = static_cast<int>(1.2 * footprint) + 10;
@@ -125,7 +132,7 @@ TEST_F(BankBehaviourTest, MovingByPixelsChangesLittle) {
 
 // A slow zoom by 1/64 octave a frame, over four bins of the table: from frame to frame the picture changes steadily.
 // The second difference is what a bin's border would show in.
-TEST_F(BankBehaviourTest, ZoomingDoesNotPop) {
+TEST_P(BankBehaviourTest, ZoomingDoesNotPop) {
     constexpr int frames = 33;
     std::vector<std::vector<Float4>> pictures;
     ScatterScene scene = makeScatterScene({.footprint = 16, .width = 160, .height = 96});
@@ -138,7 +145,7 @@ TEST_F(BankBehaviourTest, ZoomingDoesNotPop) {
         for (double& depth : now.depth) {
             depth *= std::exp2(-frame / 64.0);
         }
-        pictures.push_back(effect->scatter(toInput(now), NACRE_TECHNIQUE_BANK));
+        pictures.push_back(scatter(*effect, now));
         for (std::size_t i = 0; frame >= 2 && i < pictures[0].size(); ++i) {
             for (int channel = 0; channel < 3; ++channel) {
                 const double last = pictures[frame][i][channel];
@@ -156,7 +163,7 @@ TEST_F(BankBehaviourTest, ZoomingDoesNotPop) {
 }
 
 // Not a number, infinite and absurd inputs stay where they are; so does a pixel far from everything.
-TEST_F(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
+TEST_P(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const ScatterScene scene = makeScatterScene({.footprint = 20, .width = 200, .height = 120});
@@ -173,7 +180,7 @@ TEST_F(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
     for (int i = 0; i < 16; ++i) { // whole texels of the pyramid without light
         input.irradiance[scene.index(120 + i % 4, 60 + i / 4)] = {nan, nan, nan, 1};
     }
-    const std::vector<Float4> result = effect->scatter(input, NACRE_TECHNIQUE_BANK);
+    const std::vector<Float4> result = effect->scatter(input, GetParam());
     for (int y = 0; y < scene.height; ++y) {
         for (int x = 0; x < scene.width; ++x) {
             for (int channel = 0; channel < 3; ++channel) {
