@@ -259,11 +259,6 @@ float massOf(float area) {
     return min(area, 1.0);
 }
 
-// Whether a texel or pixel gives light to a material.
-bool givesLight(uint from, uint to) {
-    return !separateMaterials || exchanges(from, to);
-}
-
 // Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
 float separationAt(int level, float nearest) {
     return (secondLevels > 0 ? bankSecondSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
@@ -273,7 +268,7 @@ float separationAt(int level, float nearest) {
 vec2 depthRange(RawTexel texels[4], vec2 range) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         float depth = texels[i].depth;
-        range = texels[i].mass > 0.0 ? vec2(min(range.x, depth), max(range.y, depth)) : range;
+        range = vec2(texels[i].mass > 0.0 ? min(range.x, depth) : range.x, max(range.y, depth)); // 0 where it is empty
     }
     return range;
 }
@@ -285,16 +280,17 @@ const vec2 noRange = vec2(1e30, 0.0);
 bvec4 chooseSurface(RawTexel texels[4], int level) {
     vec2 range = depthRange(texels, noRange);
     float separation = separationAt(level, range.x);
-    bvec4 front;
-    bvec4 back;
-    float balance = 0.0; // 0 where all is one surface, which is both
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        bool valid = texels[i].mass > 0.0;
-        front[i] = valid && texels[i].depth - range.x <= separation;
-        back[i] = valid && range.y - texels[i].depth <= separation;
-        balance += (front[i] ? texels[i].mass : 0.0) - (back[i] ? texels[i].mass : 0.0);
+    float front = 0.0; // mass within reach of the nearest depth,
+    float back = 0.0;  // and of the farthest; both are all of it where all is one surface
+    [[unroll]] for (int i = 0; i < 4; ++i) { // an empty texel has no mass
+        front += texels[i].depth <= range.x + separation ? texels[i].mass : 0.0;
+        back += texels[i].depth >= range.y - separation ? texels[i].mass : 0.0;
     }
-    bvec4 kept = balance >= 0.0 ? front : back;
+    float surface = front >= back ? range.x : range.y;
+    bvec4 kept;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        kept[i] = texels[i].mass > 0.0 && abs(texels[i].depth - surface) <= separation;
+    }
     if (separateMaterials) {
         float heaviest = 0.0;
         uint material = 0u;

@@ -204,24 +204,18 @@ BlurredTexel findSurface(int level, int center) {
     return result;
 }
 
-// Weighted sums of a kernel's taps.
-struct Sums {
-    vec3 light;
-    float area;
-};
-
-void addTap(inout Sums sums, RawTexel tap, BlurredTexel surface, float kernel, float width) {
-    float difference = tap.depth - surface.depth;
-    float weight = kernel * falloff(difference * difference / (bankBlurDepthVariance * width * width));
-    bool taken = tap.mass > 0.0 && givesLight(tap.material, surface.material);
-    weight = taken ? weight : 0.0;
-    sums.light += weight * tap.light;
-    sums.area += weight * tap.area;
+vec4 lightAndAreaAt(int index) {
+    return vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
 }
 
-void divide(inout BlurredTexel texel, Sums sums) {
-    texel.mass = massOf(sums.area);
-    texel.light = sums.light * (texel.mass / max(sums.area, bankLeastWeight));
+// Adds a tap to light and area. An empty texel has no area. `scale`: depthScale.
+void addTap(inout vec4 sum, int index, BlurredTexel surface, float kernel, float scale) {
+    vec4 tap = lightAndAreaAt(index);
+    float weight = depthWeight(depths[index] - surface.depth, scale) * (kernel * tap.w);
+    if (separateMaterials) {
+        weight = exchanges(massesAndMaterials[index] >> 16, surface.material) ? weight : 0.0;
+    }
+    sum += weight * vec4(tap.rgb, 1.0);
 }
 
 // The binomial's weights from the middle on.
@@ -230,14 +224,15 @@ const float kernelTaps[3] = float[](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
 // Blurs a texel, whatever is around it.
 BlurredTexel blurTexel(int level, int center) {
     BlurredTexel surface = findSurface(level, center);
-    float width = texelWidth(level, surface.depth);
-    Sums sums = Sums(vec3(0.0), 0.0);
+    float scale = depthScale(texelWidth(level, surface.depth), bankBlurDepthVariance);
+    vec4 sum = vec4(0.0);
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
-            addTap(sums, texelAt(center + x + y * pitch), surface, kernelTaps[abs(x)] * kernelTaps[abs(y)], width);
+            addTap(sum, center + x + y * pitch, surface, kernelTaps[abs(x)] * kernelTaps[abs(y)], scale);
         }
     }
-    divide(surface, sums);
+    surface.mass = massOf(sum.w);
+    surface.light = sum.rgb * (surface.mass / max(sum.w, bankLeastWeight));
     return surface;
 }
 
@@ -248,16 +243,11 @@ struct PlainCenter {
 };
 
 PlainCenter plainCenter(int level, int index) {
-    float width = texelWidth(level, depths[index]);
-    return PlainCenter(depths[index], 0.25 / (bankBlurDepthVariance * width * width));
+    return PlainCenter(depths[index], depthScale(texelWidth(level, depths[index]), bankBlurDepthVariance));
 }
 
 // Fourth roots of the binomial's weights.
 const float kernelRoots[3] = float[](0.78254229, 0.70710678, 0.5);
-
-vec4 lightAndAreaAt(int index) {
-    return vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
-}
 
 // The same where every tap is full and no step is near: nothing is missing, nothing left out. `root` is the kernel's
 // fourth root, taken into the fourth power of the depth weight.
