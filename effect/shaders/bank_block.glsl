@@ -104,15 +104,25 @@ float longestStep(float before, float first, float second, float after) {
     return max(max(abs(first - before), abs(second - first)), abs(after - second));
 }
 
-// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
-bool isPlain(Block block, Sides sides, float width) {
+// Of a block and the pixels beside it.
+struct Depths {
+    float least;   // 0 where one is on no surface
+    float longest; // step from pixel to pixel, those to a pixel on no surface, too
+};
+
+Depths depthsOf(Block block, Sides sides) {
     vec2 leastSides = min(min(sides.left, sides.right), min(sides.above, sides.below));
     float leastOwn = min(min(block.depth[0], block.depth[1]), min(block.depth[2], block.depth[3]));
     float longest = max(max(longestStep(sides.left.x, block.depth[0], block.depth[1], sides.right.x),
                             longestStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
                         max(longestStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
                             longestStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
-    return min(min(leastSides.x, leastSides.y), leastOwn) > 0.0 && longest <= bankContinuedStep * width && !separateMaterials;
+    return Depths(min(min(leastSides.x, leastSides.y), leastOwn), longest);
+}
+
+// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
+bool isPlain(Depths around, float width) {
+    return around.least > 0.0 && around.longest <= bankContinuedStep * width && !separateMaterials;
 }
 
 // Areas of a plain block's pixels: as areaOf, where every depth goes on to both sides.
@@ -204,31 +214,35 @@ float longestSurfaceStep(float before, float first, float second, float after) {
     return max(max(surfaceStep(before, first), surfaceStep(first, second)), surfaceStep(second, after));
 }
 
+// The same where some pixel is on no surface: between those that are.
+float longestBesideHole(vec4 depth, Sides sides) {
+    return max(max(longestSurfaceStep(sides.left.x, depth.x, depth.y, sides.right.x),
+                   longestSurfaceStep(sides.left.y, depth.z, depth.w, sides.right.y)),
+               max(longestSurfaceStep(sides.above.x, depth.x, depth.z, sides.below.x),
+                   longestSurfaceStep(sides.above.y, depth.y, depth.w, sides.below.y)));
+}
+
 // Whether a block that is not plain, or a pixel beside it, is no place for plain weights.
-bool isRough(Block block, Sides sides) {
+bool isRough(Block block, Sides sides, Depths around) {
     vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
-    float longest = max(max(longestSurfaceStep(sides.left.x, depth.x, depth.y, sides.right.x),
-                            longestSurfaceStep(sides.left.y, depth.z, depth.w, sides.right.y)),
-                        max(longestSurfaceStep(sides.above.x, depth.x, depth.z, sides.below.x),
-                            longestSurfaceStep(sides.above.y, depth.y, depth.w, sides.below.y)));
-    vec4 leastBeside = min(min(vec4(sides.left, sides.right), vec4(sides.above, sides.below)), depth);
-    bool hasHole = min(min(leastBeside.x, leastBeside.y), min(leastBeside.z, leastBeside.w)) == 0.0;
     float width = texelWidth(0, max(max(depth.x, depth.y), max(depth.z, depth.w)));
-    return longest > (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * width;
+    return around.least > 0.0 ? around.longest > bankSmoothDepth * width
+                              : longestBesideHole(depth, sides) > bankSmoothHoleDepth * width;
 }
 
 Reduced reduceBlock(Block block, int place, ivec2 texel) {
     Sides sides = sidesOf(place);
     float width = texelWidth(0, block.depth[0]);
     Reduced reduced;
-    bool plain = isPlain(block, sides, width);
+    Depths around = depthsOf(block, sides);
+    bool plain = isPlain(around, width);
     if (plain) {
         reduced = reducePlain(block, sides, width);
         plain = isFinite(reduced.texel.light);
     }
     if (!plain) {
         reduced = reduceAny(block, sides);
-        bool rough = reduced.texel.dropped || isRough(block, sides);
+        bool rough = reduced.texel.dropped || isRough(block, sides, around);
         bool isPart = secondLevels > 0 || reduced.texel.mass < 1.0;
         uint bits = (rough ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
         if (bits != 0u) {
