@@ -145,8 +145,7 @@ void BankTwin::reduceLevel(int level) {
     to.height = level == 1 ? tilesY_ * tileSize / 2 : (from.height + 1) / 2;
     seconds.width = to.width;
     seconds.height = to.height;
-    const double separation =
-        settings_.secondSurfaces ? constants::bankSecondSeparation : constants::bankSurfaceSeparation;
+    const double separation = hasSeconds(level) ? constants::bankSecondSeparation : constants::bankSurfaceSeparation;
     for (int i = 0; i < to.width * to.height; ++i) {
         Block block;
         for (int child = 0; child < 4; ++child) {
