@@ -183,33 +183,40 @@ void BankTwin::blurLevel(int level) {
     const int rows = level == bankLevels ? coarsestRows : blockHeight;
     for (int y = 0; y < to.height; y += rows) {
         for (int x = 0; x < to.width; x += blockWidth) {
-            blurBlock(level, x, y, std::min(x + blockWidth, to.width), std::min(y + rows, to.height));
+            blurBlock(level, x, y, rows);
         }
     }
 }
 
-// Where nothing within reach of a block is missing or left out, nothing is missing of its kernels, however steep they
-// stand.
-void BankTwin::blurBlock(int level, int firstX, int firstY, int endX, int endY) {
-    const int rows = level == bankLevels ? coarsestRows : blockHeight;
-    bool whole = true;
-    for (int y = firstY - 2; y < firstY + rows + 2; ++y) {
-        for (int x = firstX - 2; x < firstX + blockWidth + 2; ++x) {
+// Whether every texel within reach of a block is full, with nothing left out and no step between two of them.
+bool BankTwin::isWhole(int level, int firstX, int firstY, int rows) const {
+    const int endX = firstX + blockWidth + 2;
+    const int endY = firstY + rows + 2;
+    for (int y = firstY - 2; y < endY; ++y) {
+        for (int x = firstX - 2; x < endX; ++x) {
             const RawTexel* texel = raw_[level].at(x, y);
-            whole = whole && texel != nullptr && texel->mass == 1 && !texel->dropped;
+            if (texel == nullptr || texel->mass != 1 || texel->dropped) {
+                return false;
+            }
         }
     }
-    for (int y = firstY - 2; whole && y < firstY + rows + 2; ++y) {
-        for (int x = firstX - 2; x < firstX + blockWidth + 2; ++x) {
-            const bool hasRight = x + 1 < firstX + blockWidth + 2;
-            const bool hasBelow = y + 1 < firstY + rows + 2;
-            whole =
-                whole && !(hasRight && isStep(level, x, y, x + 1, y)) && !(hasBelow && isStep(level, x, y, x, y + 1));
+    for (int y = firstY - 2; y < endY; ++y) {
+        for (int x = firstX - 2; x < endX; ++x) {
+            if ((x + 1 < endX && isStep(level, x, y, x + 1, y)) || (y + 1 < endY && isStep(level, x, y, x, y + 1))) {
+                return false;
+            }
         }
     }
-    for (int y = firstY; y < endY; ++y) {
-        for (int x = firstX; x < endX; ++x) {
-            BlurredTexel& texel = blurred_[level].texels[static_cast<std::size_t>(y) * blurred_[level].width + x];
+    return true;
+}
+
+// In a whole block nothing is missing of a kernel, however steep it stands.
+void BankTwin::blurBlock(int level, int firstX, int firstY, int rows) {
+    TwinLevel<BlurredTexel>& to = blurred_[level];
+    const bool whole = isWhole(level, firstX, firstY, rows);
+    for (int y = firstY; y < std::min(firstY + rows, to.height); ++y) {
+        for (int x = firstX; x < std::min(firstX + blockWidth, to.width); ++x) {
+            BlurredTexel& texel = to.texels[static_cast<std::size_t>(y) * to.width + x];
             texel = blurTexel(level, x, y);
             if (whole) {
                 for (double& value : texel.light) {
@@ -315,16 +322,13 @@ bool BankTwin::isEdgePart(int firstX, int firstY) const {
 unsigned BankTwin::roughLevels(int firstX, int firstY, int width, int height) const {
     unsigned rough = 0;
     for (int level = 2; level <= bankLevels; ++level) {
-        const TwinLevel<BlurredTexel>& blurred = blurred_[level];
         const int texel = 1 << level;
         const int columns = width / texel + 2;
         const int rows = height / texel + 2;
         for (int i = 0; i < columns * rows; ++i) {
             const int x = ((firstX - texel / 2) >> level) + i % columns;
             const int y = ((firstY - texel / 2) >> level) + i / columns;
-            const BlurredTexel* loaded =
-                blurred.at(std::clamp(x, 0, blurred.width - 1), std::clamp(y, 0, blurred.height - 1));
-            rough |= loaded->plain ? 0u : 1u << level;
+            rough |= blurred_[level].nearest(x, y).plain ? 0u : 1u << level;
         }
     }
     return rough;

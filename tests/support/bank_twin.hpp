@@ -4,6 +4,7 @@
 #include "nacre/bank.hpp"
 #include "tests/support/scatter_scenes.hpp"
 
+#include <algorithm>
 #include <span>
 
 namespace nacre::tests {
@@ -40,6 +41,8 @@ template <typename Texel> struct TwinLevel {
     const Texel* at(int x, int y) const {
         return x >= 0 && y >= 0 && x < width && y < height ? &texels[static_cast<std::size_t>(y) * width + x] : nullptr;
     }
+    /// The one that is nearest to a place outside.
+    const Texel& nearest(int x, int y) const { return *at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)); }
 };
 
 class BankTwin {
@@ -65,7 +68,8 @@ private:
     bool hasSeconds(int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
-    void blurBlock(int level, int firstX, int firstY, int endX, int endY);
+    bool isWhole(int level, int firstX, int firstY, int rows) const;
+    void blurBlock(int level, int firstX, int firstY, int rows);
     bool isStep(int level, int x, int y, int besideX, int besideY) const;
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;

@@ -17,6 +17,28 @@ std::array<double, 5> finestTaps(double side, int odd) {
     return result;
 }
 
+// Between which four texels of a level a place lies.
+struct Corner {
+    int x = 0; // of the first
+    int y = 0;
+    double fractionX = 0; // from there to the next
+    double fractionY = 0;
+
+    /// The bilinear weight of one of the four, counted row by row.
+    double weight(int i) const {
+        return (i % 2 == 1 ? fractionX : 1 - fractionX) * (i / 2 == 1 ? fractionY : 1 - fractionY);
+    }
+};
+
+// `x`, `y`: px, a pixel's middle at a half.
+Corner cornerOf(int level, double x, double y) {
+    const double positionX = x / (1 << level) - 0.5;
+    const double positionY = y / (1 << level) - 0.5;
+    const double firstX = std::floor(positionX);
+    const double firstY = std::floor(positionY);
+    return {static_cast<int>(firstX), static_cast<int>(firstY), positionX - firstX, positionY - firstY};
+}
+
 } // namespace
 
 // What a kernel sees of a pixel's surface: light times mass, and mass.
@@ -202,10 +224,7 @@ BankTwin::Seen BankTwin::pixels(int x, int y) const {
 BankTwin::Seen BankTwin::reducedSeen(int level, int x, int y) const {
     const double depth = raw_[0].at(x, y)->depth;
     const double width = texelWidth(level, depth);
-    const double positionX = (x + 0.5) / (1 << level) - 0.5;
-    const double positionY = (y + 0.5) / (1 << level) - 0.5;
-    const int firstX = static_cast<int>(std::floor(positionX)) - 2;
-    const int firstY = static_cast<int>(std::floor(positionY)) - 2;
+    const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
     // The binomial, read bilinearly, of six texels along an axis.
     const auto taps = [](double fraction) {
         std::array<double, 6> result{};
@@ -215,12 +234,12 @@ BankTwin::Seen BankTwin::reducedSeen(int level, int x, int y) const {
         }
         return result;
     };
-    const std::array<double, 6> tapsX = taps(positionX - firstX - 2);
-    const std::array<double, 6> tapsY = taps(positionY - firstY - 2);
+    const std::array<double, 6> tapsX = taps(corner.fractionX);
+    const std::array<double, 6> tapsY = taps(corner.fractionY);
     SurfaceSum surface;
     for (int i = 0; i < 72; ++i) {
         const TwinLevel<RawTexel>& raw = i < 36 ? raw_[level] : rawSeconds_[level];
-        surface.add(raw.at(firstX + i % 6, firstY + i / 6 % 6), tapsX[i % 6] * tapsY[i / 6 % 6], depth,
+        surface.add(raw.at(corner.x - 2 + i % 6, corner.y - 2 + i / 6 % 6), tapsX[i % 6] * tapsY[i / 6 % 6], depth,
                     constants::bankReducedDepthVariance * width * width);
     }
     return {surface.lightOfMass(), surface.mass()};
@@ -228,18 +247,11 @@ BankTwin::Seen BankTwin::reducedSeen(int level, int x, int y) const {
 
 // A level read with bilinear weights alone.
 BankTwin::Seen BankTwin::plainLevel(int level, int x, int y) const {
-    const TwinLevel<BlurredTexel>& blurred = blurred_[level];
-    const double positionX = (x + 0.5) / (1 << level) - 0.5;
-    const double positionY = (y + 0.5) / (1 << level) - 0.5;
-    const int firstX = static_cast<int>(std::floor(positionX));
-    const int firstY = static_cast<int>(std::floor(positionY));
+    const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
     Seen seen;
     for (int i = 0; i < 4; ++i) {
-        const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
-        const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
-        const BlurredTexel& tap = *blurred.at(tapX, tapY);
-        const double weight = (i % 2 == 1 ? positionX - firstX : 1 - positionX + firstX) *
-                              (i / 2 == 1 ? positionY - firstY : 1 - positionY + firstY);
+        const BlurredTexel& tap = blurred_[level].nearest(corner.x + i % 2, corner.y + i / 2);
+        const double weight = corner.weight(i);
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += weight * tap.light[channel];
         }
@@ -249,31 +261,21 @@ BankTwin::Seen BankTwin::plainLevel(int level, int x, int y) const {
 }
 
 BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
-    const TwinLevel<BlurredTexel>& blurred = blurred_[level];
     const double depth = depthOf(x, y, smooth);
     const double width = texelWidth(level, depth);
-    const double positionX = (x + 0.5) / (1 << level) - 0.5;
-    const double positionY = (y + 0.5) / (1 << level) - 0.5;
-    const int firstX = static_cast<int>(std::floor(positionX));
-    const int firstY = static_cast<int>(std::floor(positionY));
-    const auto placeWeight = [&](int i, double atX, double atY) {
-        return (i % 2 == 1 ? atX - firstX : 1 - atX + firstX) * (i / 2 == 1 ? atY - firstY : 1 - atY + firstY);
-    };
-    // What the level's share is taken at: in smooth regions the middle of the quad.
-    const double middleX = smooth ? (x / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionX;
-    const double middleY = smooth ? (y / 2 * 2 + 1.0) / (1 << level) - 0.5 : positionY;
+    const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
+    // What the level's share is taken at: in smooth regions the middle of the quad, which lies between the same texels.
+    const Corner middle = smooth ? cornerOf(level, x / 2 * 2 + 1, y / 2 * 2 + 1) : corner;
     Seen seen;
     double total = 0;
     double away = 0; // of the texels' surface from the pixel's, mm
     for (int i = 0; i < 4; ++i) {
-        const int tapX = std::clamp(firstX + i % 2, 0, blurred.width - 1);
-        const int tapY = std::clamp(firstY + i / 2, 0, blurred.height - 1);
-        const BlurredTexel& tap = *blurred.at(tapX, tapY);
+        const BlurredTexel& tap = blurred_[level].nearest(corner.x + i % 2, corner.y + i / 2);
         const double difference = tap.depth - depth;
         const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
         const double depthWeight = tap.depth > 0 ? falloff(q) : 0;
-        const double tapWeight = placeWeight(i, positionX, positionY) * depthWeight;
-        const double middleWeight = placeWeight(i, middleX, middleY) * depthWeight;
+        const double tapWeight = corner.weight(i) * depthWeight;
+        const double middleWeight = middle.weight(i) * depthWeight;
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += tapWeight * tap.light[channel];
         }
