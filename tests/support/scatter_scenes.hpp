@@ -29,8 +29,12 @@ struct ScatterScene {
     bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
 };
 
-enum class SceneKind { Plane, Spheres, Tilt, Thin };
+enum class SceneKind { Plane, Spheres, Tilt, Thin, Floor, Terrain, Boxes, Sheets, Foliage, Hair };
+/// What the bank's constants were chosen on.
 inline constexpr SceneKind allSceneKinds[] = {SceneKind::Plane, SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin};
+/// What they were not chosen on.
+inline constexpr SceneKind heldOutSceneKinds[] = {SceneKind::Floor,  SceneKind::Terrain, SceneKind::Boxes,
+                                                  SceneKind::Sheets, SceneKind::Foliage, SceneKind::Hair};
 
 struct SceneSettings {
     SceneKind kind = SceneKind::Plane;
