@@ -65,6 +65,11 @@ struct LevelGrid {
 
 const LevelGrid finestGrid = LevelGrid(4, 0.25, packedPlaces);
 
+LevelGrid gridOf(int level) {
+    int width = 1 << level;
+    return LevelGrid(width, 1.0 / float(width), packedPlaces >> 6 * (level - 2));
+}
+
 LevelGrid coarser(LevelGrid grid) {
     return LevelGrid(2 * grid.width, 0.5 * grid.step, grid.places >> 6);
 }

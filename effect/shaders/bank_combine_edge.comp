@@ -160,8 +160,8 @@ void addTap(inout Taps taps, float share, uvec2 light, float distance, float sca
     taps.away += weight * distance;
 }
 
-// Adds a level with depth weights.
-void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, float depth, uint material) {
+// Adds a level with depth weights. Returns how much of it there is at the pixel's depth, [0, 1].
+float addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, float depth, uint material) {
     float scale = levelScale(level, depth);
     vec2 rest = 1.0 - corner.fraction;
     Taps taps = Taps(vec4(0.0), 0.0, 0.0);
@@ -173,7 +173,9 @@ void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, floa
         }
         addTap(taps, share, levelLights[place], levelDepths[place] - depth, scale);
     }
-    add(sum, weight, taps.light * levelShare(taps.total, taps.away, scale));
+    float share = levelShare(taps.total, taps.away, scale);
+    add(sum, weight, taps.light * share);
+    return taps.total * share;
 }
 
 // Along an axis the 5x5 binomial and the bilinear reading of it are one kernel of six texels, which changes with where the
@@ -218,23 +220,27 @@ void addPlainLevel(inout Sum sum, vec3 weight, Corner corner) {
     add(sum, weight, mix(upper, lower, corner.fraction.y));
 }
 
-void addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth, uint material) {
+// From the coarsest level on: what of a level is not at the pixel's depth is asked of the next finer one. Returns what is
+// left of that.
+vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth, uint material) {
     uint rough = separateMaterials ? ~0u : roughLevels;
-    LevelGrid grid = finestGrid;
-    [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
-        if ((used >> level & 2u) != 0u) {
-            vec3 weight = kernelWeight(mixture, level + 1);
-            Corner corner = cornerOf(grid, level, region, local);
-            if ((rough >> level & 1u) == 0u) {
-                addPlainLevel(sum, weight, corner);
-            } else if (readsReduced) {
-                addReducedLevel(sum, weight, level, region + local, corner.fraction, depth);
-            } else {
-                addWeightedLevel(sum, weight, level, corner, depth, material);
-            }
+    vec3 left = vec3(0.0);
+    [[dont_unroll]] for (int level = bankLevels; level >= 2; --level) {
+        if ((used >> level & 2u) == 0u) {
+            continue;
         }
-        grid = coarser(grid);
+        vec3 weight = kernelWeight(mixture, level + 1) + left;
+        left = vec3(0.0);
+        Corner corner = cornerOf(gridOf(level), level, region, local);
+        if ((rough >> level & 1u) == 0u) {
+            addPlainLevel(sum, weight, corner);
+        } else if (readsReduced) {
+            addReducedLevel(sum, weight, level, region + local, corner.fraction, depth);
+        } else {
+            left = weight * (1.0 - addWeightedLevel(sum, weight, level, corner, depth, material));
+        }
     }
+    return left;
 }
 
 void main() {
@@ -256,12 +262,13 @@ void main() {
         Mixture mixture = findMixture(material, depth, region + local + view.areaOffset);
         Sum sum = noSum();
         addIdentity(sum, kernelWeight(mixture, 0), local);
-        addPixels(sum, kernelWeight(mixture, 1), local, material, depth);
         uint used = usedKernels(mixture);
+        vec3 left = addLevels(sum, mixture, used, region, local, depth, material);
         if ((used & finestKernel) != 0u) {
-            addFinestLevel(sum, kernelWeight(mixture, 2), local, depth, material);
+            addFinestLevel(sum, kernelWeight(mixture, 2) + left, local, depth, material);
+            left = vec3(0.0);
         }
-        addLevels(sum, mixture, used, region, local, depth, material);
+        addPixels(sum, kernelWeight(mixture, 1) + left, local, material, depth);
         storeGroup(region + local, bvec4(true), material, mixture.strength, sum);
     } else {
         storeRest(region + local, 0u);

@@ -45,6 +45,7 @@ Corner cornerOf(int level, double x, double y) {
 struct BankTwin::Seen {
     Rgb light{};
     double mass = 0;
+    double share = 1; // of the kernel, what is at the pixel's depth; edge pixels ask the next finer one for the rest
 };
 
 // The pixels of a 2x2 quad. In smooth regions they share its depth, for their weights and their texels' depth weights,
@@ -113,12 +114,22 @@ void BankTwin::combinePixel(int x, int y, bool smooth, std::span<const Seen, ban
     const std::size_t index = scene_.index(x, y);
     const BankWeights weights =
         tables_[scene_.materialId[index] - 1].at(scene_.focalLength * stretch(x, y) / depthOf(x, y, smooth));
+    std::array<bool, bankSize> used{};
+    for (int kernel = 1; kernel < bankSize; ++kernel) {
+        used[kernel] = kernel == 1 || weights[kernel] != Rgb{};
+    }
     for (int channel = 0; channel < 3; ++channel) {
         double mass = std::max<double>(weights[0][channel], constants::bankLeastIdentity);
         double light = mass * scene_.irradiance[index][channel];
-        for (int kernel = 1; kernel < bankSize; ++kernel) {
-            light += weights[kernel][channel] * seen[kernel].light[channel];
-            mass += weights[kernel][channel] * seen[kernel].mass;
+        double left = 0;
+        for (int kernel = bankSize - 1; kernel > 0; --kernel) {
+            if (!used[kernel]) {
+                continue;
+            }
+            const double weight = weights[kernel][channel] + left;
+            light += weight * seen[kernel].light[channel];
+            mass += weight * seen[kernel].mass;
+            left = smooth ? 0 : weight * (1 - seen[kernel].share);
         }
         if (mass > 0) {
             result_[index][channel] = light / mass;
@@ -283,13 +294,14 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
         total += middleWeight;
         away += middleWeight * difference;
     }
-    total = std::max<double>(total, constants::bankLeastWeight);
-    const double distance = away / total / width;
-    const double share = falloff(distance * distance / constants::bankLevelAwayVariance);
+    const double normalization = 1 / std::max<double>(total, constants::bankLeastWeight);
+    const double distance = away * normalization / width;
+    const double share = normalization * falloff(distance * distance / constants::bankLevelAwayVariance);
     for (double& value : seen.light) {
-        value *= share / total;
+        value *= share;
     }
-    seen.mass *= share / total;
+    seen.mass *= share;
+    seen.share = share * total;
     return seen;
 }
 
