@@ -77,5 +77,29 @@ TEST_F(BankQualityTest, TwelveScenes) {
     }
 }
 
+// Sizes that no tile, region or block divides; scenes that nothing was tuned on.
+TEST_F(BankQualityTest, EqualsItsTwinAtOddSizes) {
+    const std::pair<int, int> sizes[] = {{333, 187}, {97, 211}};
+    for (const SceneKind kind : heldOutSceneKinds) {
+        for (const auto& [width, height] : sizes) {
+            const ScatterScene scene = makeScatterScene({.kind = kind, .width = width, .height = height, .seed = 5});
+            const ScatterInput input = toInput(scene);
+            for (const bool secondSurfaces : {false, true}) {
+                const NacreTechnique technique = secondSurfaces ? NACRE_TECHNIQUE_BANK_SURFACES : NACRE_TECHNIQUE_BANK;
+                NacreContextInfo info = gpu.contextInfo(input.extent);
+                info.techniques = 1u << technique;
+                Effect effect(gpu, info);
+                effect.setMaterials(scene.materials);
+                const std::vector<Rgb> image = toRgb(effect.scatter(input, technique));
+                const BankTwin twin(scene, {.secondSurfaces = secondSurfaces});
+                const double likeness = psnrOfTwin(scene, image, twin.result());
+                std::printf("%-13s %-10s %dx%d, against twin %.1f dB\n", nacreTechniqueString(technique),
+                            scene.name.c_str(), width, height, likeness);
+                EXPECT_GE(likeness, 75) << scene.name;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace nacre::tests
