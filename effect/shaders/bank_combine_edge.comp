@@ -82,10 +82,10 @@ void addIdentity(inout Sum sum, vec3 weight, ivec2 local) {
     add(sum, max(weight, vec3(bankLeastIdentity)), unpackLight(pixelLights[ownPlace(local, ivec2(0))]));
 }
 
-// Adds a kernel of light and area that were summed with depth weights over the surface within its reach.
-void addSurface(inout Sum sum, vec3 weight, vec4 lightAndArea) {
+// Light times mass, and mass, from light and area that were summed with depth weights over the surface within a kernel's reach.
+vec4 surfaceSeen(vec4 lightAndArea) {
     float mass = massOf(lightAndArea.w);
-    add(sum, weight, vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass));
+    return vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass);
 }
 
 // The full-resolution 3x3.
@@ -105,7 +105,7 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 local, uint material, float dep
         }
         lightAndArea += tapWeight * vec4(unpackLight(pixelLights[place]).rgb, 1.0);
     }
-    addSurface(sum, weight, lightAndArea);
+    add(sum, weight, surfaceSeen(lightAndArea));
 }
 
 // Along an axis the 3x3 mean and the bilinear reading of it, ¼ and ¾, are one kernel of four texels: ¼ ⅓ ⅓ 1/12 for a pixel
@@ -142,7 +142,7 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
         }
         lightAndArea += tapsY[y] * rowLightAndArea;
     }
-    addSurface(sum, weight, lightAndArea);
+    add(sum, weight, surfaceSeen(lightAndArea));
 }
 
 // Texels of a level, weighted by place and depth, as a pixel sees them.
@@ -153,29 +153,30 @@ struct Taps {
 };
 
 // `distance`: how far the tap is behind the pixel. `scale`: levelScale.
-void addTap(inout Taps taps, float share, uvec2 light, float distance, float scale) {
-    float weight = share * depthWeight(distance, scale);
+void addTap(inout Taps taps, float bilinear, uvec2 light, float distance, float scale) {
+    float weight = bilinear * depthWeight(distance, scale);
     taps.light += weight * levelLight(light);
     taps.total += weight;
     taps.away += weight * distance;
 }
 
-// Adds a level with depth weights. Returns how much of it there is at the pixel's depth, [0, 1].
-float addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, float depth, uint material) {
+// A level with depth weights: light times mass, and mass. `share`: how much of it there is at the pixel's depth, [0, 1].
+vec4 weightedLevel(int level, Corner corner, float depth, uint material, out float share) {
     float scale = levelScale(level, depth);
     vec2 rest = 1.0 - corner.fraction;
     Taps taps = Taps(vec4(0.0), 0.0, 0.0);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = corner.place + (i & 1) + (i >> 1) * levelPitch;
-        float share = ((i & 1) == 0 ? rest.x : corner.fraction.x) * (i < 2 ? rest.y : corner.fraction.y);
+        float bilinear = ((i & 1) == 0 ? rest.x : corner.fraction.x) * (i < 2 ? rest.y : corner.fraction.y);
         if (separateMaterials) {
-            share = exchanges(levelMaterials[place], material) ? share : 0.0;
+            bilinear = exchanges(levelMaterials[place], material) ? bilinear : 0.0;
         }
-        addTap(taps, share, levelLights[place], levelDepths[place] - depth, scale);
+        addTap(taps, bilinear, levelLights[place], levelDepths[place] - depth, scale);
     }
-    float share = levelShare(taps.total, taps.away, scale);
-    add(sum, weight, taps.light * share);
-    return taps.total * share;
+    share = levelShare(taps.total, taps.away, scale);
+    vec4 seen = taps.light * share;
+    share *= taps.total;
+    return seen;
 }
 
 // Along an axis the 5x5 binomial and the bilinear reading of it are one kernel of six texels, which changes with where the
@@ -183,8 +184,8 @@ float addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, flo
 const float reducedTaps[6] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0, 0.0);
 const float reducedChanges[6] = float[](-1.0 / 16.0, -3.0 / 16.0, -2.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0, 1.0 / 16.0);
 
-// Adds a level from its texels as reduced, each weighed by the pixel's own depth.
-void addReducedLevel(inout Sum sum, vec3 weight, int level, ivec2 pixel, vec2 fraction, float depth) {
+// A level from its texels as reduced, each weighed by the pixel's own depth.
+vec4 reducedLevel(int level, ivec2 pixel, vec2 fraction, float depth) {
     float scale = depthScale(texelWidth(level, depth), bankReducedDepthVariance);
     ivec2 first = (pixel - (1 << (level - 1)) >> level) - 2;
     ivec2 last = levelExtent(level) - 1;
@@ -209,15 +210,15 @@ void addReducedLevel(inout Sum sum, vec3 weight, int level, ivec2 pixel, vec2 fr
         }
         lightAndArea += fma(fraction.y, reducedChanges[y], reducedTaps[y]) * rowLightAndArea;
     }
-    addSurface(sum, weight, lightAndArea);
+    return surfaceSeen(lightAndArea);
 }
 
-// Adds a level with bilinear weights.
-void addPlainLevel(inout Sum sum, vec3 weight, Corner corner) {
+// A level with bilinear weights.
+vec4 plainLevel(Corner corner) {
     int below = corner.place + levelPitch;
     vec4 upper = mix(unpackLight(levelLights[corner.place]), unpackLight(levelLights[corner.place + 1]), corner.fraction.x);
     vec4 lower = mix(unpackLight(levelLights[below]), unpackLight(levelLights[below + 1]), corner.fraction.x);
-    add(sum, weight, mix(upper, lower, corner.fraction.y));
+    return mix(upper, lower, corner.fraction.y);
 }
 
 // From the coarsest level on: what of a level is not at the pixel's depth is asked of the next finer one. Returns what is
@@ -229,16 +230,19 @@ vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
         if ((used >> level & 2u) == 0u) {
             continue;
         }
-        vec3 weight = kernelWeight(mixture, level + 1) + left;
-        left = vec3(0.0);
         Corner corner = cornerOf(gridOf(level), level, region, local);
+        vec4 seen;
+        float share = 1.0;
         if ((rough >> level & 1u) == 0u) {
-            addPlainLevel(sum, weight, corner);
+            seen = plainLevel(corner);
         } else if (readsReduced) {
-            addReducedLevel(sum, weight, level, region + local, corner.fraction, depth);
+            seen = reducedLevel(level, region + local, corner.fraction, depth);
         } else {
-            left = weight * (1.0 - addWeightedLevel(sum, weight, level, corner, depth, material));
+            seen = weightedLevel(level, corner, depth, material, share);
         }
+        vec3 weight = kernelWeight(mixture, level + 1) + left;
+        add(sum, weight, seen);
+        left = weight * (1.0 - share);
     }
     return left;
 }
@@ -261,7 +265,6 @@ void main() {
     if (depth > 0.0) {
         Mixture mixture = findMixture(material, depth, region + local + view.areaOffset);
         Sum sum = noSum();
-        addIdentity(sum, kernelWeight(mixture, 0), local);
         uint used = usedKernels(mixture);
         vec3 left = addLevels(sum, mixture, used, region, local, depth, material);
         if ((used & finestKernel) != 0u) {
@@ -269,6 +272,7 @@ void main() {
             left = vec3(0.0);
         }
         addPixels(sum, kernelWeight(mixture, 1) + left, local, material, depth);
+        addIdentity(sum, kernelWeight(mixture, 0), local);
         storeGroup(region + local, bvec4(true), material, mixture.strength, sum);
     } else {
         storeRest(region + local, 0u);
