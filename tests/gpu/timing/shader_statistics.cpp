@@ -1,0 +1,191 @@
+// shader_statistics: what the driver's compiler says of the effect's passes: registers, instructions, shared memory,
+// whatever it tells through VK_KHR_pipeline_executable_properties.
+//   shader_statistics [--technique NAME|all] [--csv FILE]
+// Nothing is dispatched. Mesa compiles for AMD devices that are not there: RADV_FORCE_FAMILY=navi21 and its RADV alone
+// in VK_DRIVER_FILES.
+#include "nacre/nacre_parts.h"
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr VkExtent2D extent{1920, 1080};
+constexpr const char* extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+
+struct Options {
+    std::string technique = "all";
+    std::string csv;
+};
+
+// A pass in one of its forms.
+struct Program {
+    std::string technique, pass, form;
+    std::span<const std::uint32_t> spirv;
+    VkBool32 separateMaterials = VK_FALSE;
+};
+
+vk::raii::PhysicalDevice findDevice(const vk::raii::Instance& instance) {
+    const vk::raii::PhysicalDevices devices(instance);
+    for (const vk::raii::PhysicalDevice& device : devices) {
+        for (const vk::ExtensionProperties& offered : device.enumerateDeviceExtensionProperties()) {
+            if (std::string(offered.extensionName.data()) == extension) {
+                return device;
+            }
+        }
+    }
+    throw std::runtime_error(std::string("no Vulkan device offers ") + extension);
+}
+
+// With all that the effect may be given.
+vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice) {
+    NacreRequirements requirements;
+    nacreGetRequirements(&requirements);
+    const auto offered = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    requirements.features12.shaderFloat16 = offered.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16;
+    vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE, &requirements.features12);
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue({}, 0, 1, &priority);
+    const vk::PhysicalDeviceFeatures features(requirements.features);
+    return {physicalDevice, vk::DeviceCreateInfo({}, queue, {}, extension, &features, &statistics)};
+}
+
+vk::raii::DescriptorSetLayout makeSetLayout(const vk::raii::Device& device, NacreTechnique technique) {
+    std::uint32_t count = 0;
+    nacreGetBindings(technique, extent, &count, nullptr);
+    std::vector<NacreBinding> bindings(count);
+    nacreGetBindings(technique, extent, &count, bindings.data());
+    std::vector<vk::DescriptorSetLayoutBinding> layout;
+    for (const NacreBinding& binding : bindings) {
+        layout.emplace_back(binding.binding, static_cast<vk::DescriptorType>(binding.type), binding.count,
+                            vk::ShaderStageFlagBits::eCompute);
+    }
+    return {device, vk::DescriptorSetLayoutCreateInfo({}, layout)};
+}
+
+std::vector<Program> programsOf(NacreTechnique technique, const std::string& name, bool halfFloats) {
+    std::uint32_t count = 0;
+    nacreGetPasses(technique, extent, &count, nullptr);
+    std::vector<NacrePass> passes(count);
+    nacreGetPasses(technique, extent, &count, passes.data());
+    std::vector<Program> programs;
+    for (const NacrePass& pass : passes) {
+        const std::span spirv(pass.spirv, pass.spirvSize / sizeof(std::uint32_t));
+        programs.push_back({name, pass.name, "", spirv});
+        if (pass.asksMaterials) {
+            programs.push_back({name, pass.name, "separate materials", spirv, VK_TRUE});
+        }
+        if (pass.halfSpirv != nullptr && halfFloats) {
+            programs.push_back(
+                {name, pass.name, "half floats", {pass.halfSpirv, pass.halfSpirvSize / sizeof(std::uint32_t)}});
+        }
+    }
+    return programs;
+}
+
+vk::raii::Pipeline makePipeline(const vk::raii::Device& device, const vk::raii::PipelineLayout& layout,
+                                const Program& program) {
+    const vk::raii::ShaderModule module(device, vk::ShaderModuleCreateInfo({}, program.spirv));
+    const vk::SpecializationMapEntry entry(0, 0, sizeof(VkBool32));
+    const vk::SpecializationInfo constants(1, &entry, sizeof(VkBool32), &program.separateMaterials);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
+                                                  program.separateMaterials ? &constants : nullptr);
+    return {device, nullptr,
+            vk::ComputePipelineCreateInfo(vk::PipelineCreateFlagBits::eCaptureStatisticsKHR, stage, *layout)};
+}
+
+std::string valueOf(const vk::PipelineExecutableStatisticKHR& statistic) {
+    switch (statistic.format) {
+    case vk::PipelineExecutableStatisticFormatKHR::eBool32:
+        return statistic.value.b32 ? "yes" : "no";
+    case vk::PipelineExecutableStatisticFormatKHR::eInt64:
+        return std::to_string(statistic.value.i64);
+    case vk::PipelineExecutableStatisticFormatKHR::eUint64:
+        return std::to_string(statistic.value.u64);
+    default:
+        return std::to_string(statistic.value.f64);
+    }
+}
+
+void report(const vk::raii::Device& device, const vk::raii::Pipeline& pipeline, const Program& program,
+            std::ofstream& csv) {
+    std::printf("%s, %s%s%s\n ", program.technique.c_str(), program.pass.c_str(), program.form.empty() ? "" : ", ",
+                program.form.c_str());
+    const vk::PipelineInfoKHR info(*pipeline);
+    const auto executables = device.getPipelineExecutablePropertiesKHR(info);
+    for (std::uint32_t i = 0; i < executables.size(); ++i) {
+        for (const vk::PipelineExecutableStatisticKHR& statistic :
+             device.getPipelineExecutableStatisticsKHR({*pipeline, i})) {
+            std::printf(" %s %s;", statistic.name.data(), valueOf(statistic).c_str());
+            csv << program.technique << ',' << program.pass << ',' << program.form << ',' << statistic.name.data()
+                << ',' << valueOf(statistic) << '\n';
+        }
+    }
+    std::puts("");
+}
+
+void run(const Options& options) {
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application("shader_statistics", 0, nullptr, 0, VK_API_VERSION_1_2);
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo({}, &application));
+    const vk::raii::PhysicalDevice physicalDevice = findDevice(instance);
+    const vk::raii::Device device = openDevice(physicalDevice);
+    const auto offered = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    std::printf("%s\n", physicalDevice.getProperties().deviceName.data());
+    std::ofstream csv(options.csv);
+    csv << "technique,pass,form,statistic,value\n";
+    bool known = false;
+    for (int i = 1; i <= NACRE_TECHNIQUE_TRANSMIT; ++i) {
+        const auto technique = static_cast<NacreTechnique>(i);
+        const std::string name = technique == NACRE_TECHNIQUE_TRANSMIT ? "transmit" : nacreTechniqueString(technique);
+        if (options.technique != "all" && options.technique != name) {
+            continue;
+        }
+        known = true;
+        const vk::raii::DescriptorSetLayout setLayout = makeSetLayout(device, technique);
+        const vk::PushConstantRange slot(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
+        const vk::raii::PipelineLayout layout(device, vk::PipelineLayoutCreateInfo({}, *setLayout, slot));
+        for (const Program& program :
+             programsOf(technique, name, offered.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16)) {
+            report(device, makePipeline(device, layout, program), program, csv);
+        }
+    }
+    if (!known) {
+        throw std::runtime_error("--technique is '" + options.technique +
+                                 "', must be a technique's name, transmit or all");
+    }
+    if (!options.csv.empty() && !csv.flush()) {
+        throw std::runtime_error("cannot write " + options.csv);
+    }
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    try {
+        Options options;
+        for (int i = 1; i < count; ++i) {
+            const std::string name = arguments[i];
+            if (name != "--technique" && name != "--csv") {
+                throw std::runtime_error("unknown argument " + name +
+                                         "; known are --technique NAME|all and --csv FILE");
+            }
+            if (i + 1 == count) {
+                throw std::runtime_error(name + " needs a value");
+            }
+            (name == "--csv" ? options.csv : options.technique) = arguments[++i];
+        }
+        run(options);
+        return 0;
+    } catch (const std::exception& exception) {
+        std::fprintf(stderr, "shader_statistics: %s\n", exception.what());
+        return 1;
+    }
+}
