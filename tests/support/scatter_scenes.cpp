@@ -43,7 +43,7 @@ public:
             }
         }
         if (x > 0 && y > 0) {
-            const double scale = 0.75 + 0.5 * noise(static_cast<int>(x), static_cast<int>(y));
+            const double scale = 0.75 + 0.5 * latticeNoise(static_cast<int>(x), static_cast<int>(y), noiseSeed_);
             for (double& value : light) {
                 value = std::min(1.0, value * scale);
             }
@@ -59,14 +59,6 @@ private:
         double x, y, radius;
         Rgb color;
     };
-
-    double noise(int x, int y) const {
-        std::uint32_t h =
-            noiseSeed_ + static_cast<std::uint32_t>(x) * 0x9e3779b9u + static_cast<std::uint32_t>(y) * 0x85ebca6bu;
-        h = (h ^ h >> 16) * 0x7feb352du;
-        h = (h ^ h >> 15) * 0x846ca68bu;
-        return static_cast<double>(h ^ h >> 16) / 4294967296.0;
-    }
 
     std::array<Edge, 4> edges_{};
     std::array<Disc, 14> discs_{};

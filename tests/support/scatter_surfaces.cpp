@@ -9,6 +9,13 @@ namespace nacre::tests {
 
 using std::numbers::pi;
 
+double latticeNoise(int x, int y, std::uint32_t seed) {
+    std::uint32_t h = seed + static_cast<std::uint32_t>(x) * 0x9e3779b9u + static_cast<std::uint32_t>(y) * 0x85ebca6bu;
+    h = (h ^ h >> 16) * 0x7feb352du;
+    h = (h ^ h >> 15) * 0x846ca68bu;
+    return static_cast<double>(h ^ h >> 16) / 4294967296.0;
+}
+
 int stripe(double x, double y, int count) {
     const double wavy = x + 12 * std::sin(y / 23.0);
     return 1 + (static_cast<int>(std::floor(wavy / 45.0)) % count + count) % count;

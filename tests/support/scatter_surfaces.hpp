@@ -55,6 +55,8 @@ struct Frame {
     int materialCount = 0;
 };
 
+/// [0, 1] at whole places, different at each.
+double latticeNoise(int x, int y, std::uint32_t seed);
 /// A material in wavy stripes.
 int stripe(double x, double y, int count);
 /// Where a ray meets a plane through the middle of the scene; nothing where that is far away or behind the camera.

@@ -9,15 +9,7 @@ namespace {
 
 using std::numbers::pi;
 
-// [0, 1] at whole places.
-double latticeNoise(int x, int y, std::uint32_t seed) {
-    std::uint32_t h = seed + static_cast<std::uint32_t>(x) * 0x9e3779b9u + static_cast<std::uint32_t>(y) * 0x85ebca6bu;
-    h = (h ^ h >> 16) * 0x7feb352du;
-    h = (h ^ h >> 15) * 0x846ca68bu;
-    return static_cast<double>(h ^ h >> 16) / 4294967296.0;
-}
-
-// Between them, with a continuous slope.
+// Between whole places, with a continuous slope.
 double smoothNoise(double x, double y, std::uint32_t seed) {
     const double left = std::floor(x);
     const double top = std::floor(y);
