@@ -27,8 +27,8 @@ public:
         noiseSeed_ = static_cast<std::uint32_t>(dice(1, 1e6));
     }
 
-    Rgb at(double x, double y, const Vector3& normal) const {
-        const double facing = std::max(0.0, dot(normal, normalized({0.4, -0.5, -0.8})));
+    Rgb at(double x, double y, const Vector3<double>& normal) const {
+        const double facing = std::max(0.0, dot(normal, normalized(Vector3<double>{0.4, -0.5, -0.8})));
         int crossings = 0;
         for (const Edge& edge : edges_) {
             crossings += edge.x * x + edge.y * y > edge.offset;
@@ -123,7 +123,7 @@ ScatterScene makeScatterScene(const SceneSettings& settings) {
             const double y = (row + 0.5 - height / 2) / settings.zoom + settings.shift;
             const Hit hit = surface(x, y, distance);
             scene.depth.push_back((distance + hit.depth) * millimetersPerPixel);
-            scene.normal.push_back({hit.normal.x, hit.normal.y, hit.normal.z});
+            scene.normal.push_back(hit.normal);
             scene.materialId.push_back(static_cast<std::uint8_t>(hit.material));
             scene.irradiance.push_back(lighting.at(x, y, hit.normal));
         }

@@ -21,15 +21,15 @@ int stripe(double x, double y, int count) {
     return 1 + (static_cast<int>(std::floor(wavy / 45.0)) % count + count) % count;
 }
 
-Hit planeHit(const Vector3& normal, double x, double y, double distance, int material) {
+Hit planeHit(const Vector3<double>& normal, double x, double y, double distance, int material) {
     constexpr double farthest = 8;
-    const double along = normal.z * distance / dot(normal, {x / distance, y / distance, 1});
+    const double along = normal[2] * distance / dot(normal, Vector3<double>{x / distance, y / distance, 1});
     const bool inSight = along > 0 && along < farthest * distance; // else the horizon, or behind the camera
     return inSight ? Hit{along - distance, material, normal} : Hit{0, 0, normal};
 }
 
-Vector3 slopeNormal(double x, double y, double depth, double slopeX, double slopeY, double distance) {
-    return normalized({slopeX, slopeY, -(1 + (depth + x * slopeX + y * slopeY) / distance)});
+Vector3<double> slopeNormal(double x, double y, double depth, double slopeX, double slopeY, double distance) {
+    return normalized(Vector3<double>{slopeX, slopeY, -(1 + (depth + x * slopeX + y * slopeY) / distance)});
 }
 
 // Facing the camera: every material in wavy strips, and holes that do not scatter.
@@ -48,7 +48,7 @@ Surface makePlane(Dice& dice, const Frame& frame) {
 // Nine overlapping spheres, some of two materials, in front of a wall.
 Surface makeSpheres(Dice& dice, const Frame& frame) {
     struct Sphere {
-        Vector3 centre;
+        Vector3<double> centre;
         double radius;
         int material, other;
     };
@@ -62,21 +62,21 @@ Surface makeSpheres(Dice& dice, const Frame& frame) {
     }
     return [=](double x, double y, double distance) {
         Hit nearest{0.5 * frame.height, 1, {0, 0, -1}};
-        const Vector3 ray = normalized({x / distance, y / distance, 1});
+        const Vector3<double> ray = normalized(Vector3<double>{x / distance, y / distance, 1});
         for (const Sphere& sphere : spheres) {
-            const Vector3 centre{sphere.centre.x, sphere.centre.y, sphere.centre.z + distance};
+            const Vector3<double> centre{sphere.centre[0], sphere.centre[1], sphere.centre[2] + distance};
             const double along = dot(ray, centre);
             const double under = along * along - dot(centre, centre) + sphere.radius * sphere.radius;
             if (under <= 0) {
                 continue;
             }
             const double reach = along - std::sqrt(under);
-            const double depth = reach * ray.z - distance;
+            const double depth = reach * ray[2] - distance;
             if (depth < nearest.depth) {
-                const Vector3 normal{(reach * ray.x - centre.x) / sphere.radius,
-                                     (reach * ray.y - centre.y) / sphere.radius,
-                                     (reach * ray.z - centre.z) / sphere.radius};
-                nearest = {depth, normal.y > 0.2 ? sphere.other : sphere.material, normal};
+                const Vector3<double> normal{(reach * ray[0] - centre[0]) / sphere.radius,
+                                             (reach * ray[1] - centre[1]) / sphere.radius,
+                                             (reach * ray[2] - centre[2]) / sphere.radius};
+                nearest = {depth, normal[1] > 0.2 ? sphere.other : sphere.material, normal};
             }
         }
         return nearest;
@@ -87,8 +87,8 @@ Surface makeSpheres(Dice& dice, const Frame& frame) {
 Surface makeTilt(Dice& dice, const Frame& frame) {
     const double turn = dice(0, 2 * pi);
     const double wave = dice(0.18, 0.3) * frame.height;
-    const Vector3 normal{std::sin(67 * pi / 180) * std::cos(turn), std::sin(67 * pi / 180) * std::sin(turn),
-                         -std::cos(67 * pi / 180)};
+    const Vector3<double> normal{std::sin(67 * pi / 180) * std::cos(turn), std::sin(67 * pi / 180) * std::sin(turn),
+                                 -std::cos(67 * pi / 180)};
     const double split = dice(-0.1, 0.1) * frame.height;
     return [=](double x, double y, double distance) {
         const int material = stripe(1.5 * y, x, frame.materialCount);

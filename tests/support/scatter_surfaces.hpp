@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/scatter_scenes.hpp"
+#include "tests/support/vector3.hpp"
 
 #include <cmath>
 #include <functional>
@@ -9,26 +10,11 @@
 
 namespace nacre::tests {
 
-struct Vector3 {
-    double x = 0;
-    double y = 0;
-    double z = 0;
-};
-
-inline double dot(const Vector3& a, const Vector3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-inline Vector3 normalized(const Vector3& a) {
-    const double scale = 1 / std::sqrt(dot(a, a));
-    return {a.x * scale, a.y * scale, a.z * scale};
-}
-
 /// Positions in px on the plane at the middle depth, so that a scene looks the same at every footprint.
 struct Hit {
     double depth = 0; ///< px, relative to the middle depth, away from the camera
     int material = 0;
-    Vector3 normal{0, 0, -1};
+    Vector3<double> normal{0, 0, -1};
 };
 
 /// The numbers every scene is made from.
@@ -60,9 +46,9 @@ double latticeNoise(int x, int y, std::uint32_t seed);
 /// A material in wavy stripes.
 int stripe(double x, double y, int count);
 /// Where a ray meets a plane through the middle of the scene; nothing where that is far away or behind the camera.
-Hit planeHit(const Vector3& normal, double x, double y, double distance, int material);
+Hit planeHit(const Vector3<double>& normal, double x, double y, double distance, int material);
 /// Normal of a surface whose depth along the rays, which spread, changes so from pixel to pixel.
-Vector3 slopeNormal(double x, double y, double depth, double slopeX, double slopeY, double distance);
+Vector3<double> slopeNormal(double x, double y, double depth, double slopeX, double slopeY, double distance);
 
 Surface makePlane(Dice& dice, const Frame& frame);
 Surface makeSpheres(Dice& dice, const Frame& frame);

@@ -26,7 +26,7 @@ double smoothNoise(double x, double y, std::uint32_t seed) {
 
 // A plane at 80 degrees to the view up to the horizon, as one sees a floor: near and far in one picture.
 Surface makeFloor(Dice&, const Frame& frame) {
-    const Vector3 normal{0, -std::sin(80 * pi / 180), -std::cos(80 * pi / 180)};
+    const Vector3<double> normal{0, -std::sin(80 * pi / 180), -std::cos(80 * pi / 180)};
     return [=](double x, double y, double distance) {
         return planeHit(normal, x, y, distance, stripe(x, y, frame.materialCount));
     };
