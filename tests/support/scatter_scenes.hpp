@@ -31,7 +31,7 @@ struct ScatterScene {
 
 enum class SceneKind { Plane, Spheres, Tilt, Thin, Floor, Terrain, Boxes, Sheets, Foliage, Hair };
 /// What the bank's constants were chosen on.
-inline constexpr SceneKind allSceneKinds[] = {SceneKind::Plane, SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin};
+inline constexpr SceneKind tunedSceneKinds[] = {SceneKind::Plane, SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin};
 /// What they were not chosen on.
 inline constexpr SceneKind heldOutSceneKinds[] = {SceneKind::Floor,  SceneKind::Terrain, SceneKind::Boxes,
                                                   SceneKind::Sheets, SceneKind::Foliage, SceneKind::Hair};
