@@ -44,12 +44,16 @@ vk::raii::PhysicalDevice findDevice(const vk::raii::Instance& instance) {
     throw std::runtime_error(std::string("no Vulkan device offers ") + extension);
 }
 
+bool hasHalfFloats(const vk::raii::PhysicalDevice& physicalDevice) {
+    const auto offered = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    return offered.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16;
+}
+
 // With all that the effect may be given.
-vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice) {
+vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice, bool halfFloats) {
     NacreRequirements requirements;
     nacreGetRequirements(&requirements);
-    const auto offered = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
-    requirements.features12.shaderFloat16 = offered.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16;
+    requirements.features12.shaderFloat16 = halfFloats;
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics(VK_TRUE, &requirements.features12);
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, 0, 1, &priority);
@@ -136,8 +140,8 @@ void run(const Options& options) {
     const vk::ApplicationInfo application("shader_statistics", 0, nullptr, 0, VK_API_VERSION_1_2);
     const vk::raii::Instance instance(context, vk::InstanceCreateInfo({}, &application));
     const vk::raii::PhysicalDevice physicalDevice = findDevice(instance);
-    const vk::raii::Device device = openDevice(physicalDevice);
-    const auto offered = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+    const bool halfFloats = hasHalfFloats(physicalDevice);
+    const vk::raii::Device device = openDevice(physicalDevice, halfFloats);
     std::printf("%s\n", physicalDevice.getProperties().deviceName.data());
     std::ofstream csv(options.csv);
     csv << "technique,pass,form,statistic,value\n";
@@ -152,8 +156,7 @@ void run(const Options& options) {
         const vk::raii::DescriptorSetLayout setLayout = makeSetLayout(device, technique);
         const vk::PushConstantRange slot(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
         const vk::raii::PipelineLayout layout(device, vk::PipelineLayoutCreateInfo({}, *setLayout, slot));
-        for (const Program& program :
-             programsOf(technique, name, offered.get<vk::PhysicalDeviceVulkan12Features>().shaderFloat16)) {
+        for (const Program& program : programsOf(technique, name, halfFloats)) {
             report(device, makePipeline(device, layout, program), program, csv);
         }
     }
