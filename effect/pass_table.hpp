@@ -21,7 +21,6 @@ enum class Intermediate : std::uint32_t {
     BankRaw = intermediateBankRaw,
     BankBlurred = intermediateBankBlurred,
     BankSurfaces = intermediateBankSurfaces,
-    BankQuads = intermediateBankQuads,
     BankAreas = intermediateBankAreas,
     BankTiles = intermediateBankTiles,
     BankMaterials = intermediateBankMaterials,
@@ -70,7 +69,7 @@ struct Pass {
 /// Sizes of the bank's buffers (scatter_bank.cpp).
 VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
-VkDeviceSize bankQuadBytes(VkExtent2D maxExtent);
+VkDeviceSize bankAreaBytes(VkExtent2D maxExtent);
 VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent);
 VkDeviceSize bankSecondBytes(VkExtent2D maxExtent);
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent);

@@ -89,6 +89,12 @@ VkDeviceSize texelCount(VkExtent2D maxExtent) {
     return VkDeviceSize{cellTexels} * cells.width * cells.height + coarsest.width * coarsest.height;
 }
 
+// Of level 1.
+VkDeviceSize fineTexelCount(VkExtent2D maxExtent) {
+    const VkExtent2D finest = levelExtent(maxExtent, 1);
+    return VkDeviceSize{finest.width} * finest.height;
+}
+
 // Bits of the kernels that have a weight at a bin or the next.
 std::uint32_t usedKernels(const std::uint16_t* bin) {
     std::uint32_t used = 0;
@@ -122,7 +128,7 @@ void buildTable(const Material& material, const Profile& profile, std::span<std:
 
 constexpr IntermediateSet raw = bit(Intermediate::BankRaw);
 constexpr IntermediateSet blurred = bit(Intermediate::BankBlurred) | bit(Intermediate::BankSurfaces);
-constexpr IntermediateSet quads = bit(Intermediate::BankQuads) | bit(Intermediate::BankMaterials);
+constexpr IntermediateSet pixelMaterials = bit(Intermediate::BankMaterials);
 constexpr IntermediateSet areas = bit(Intermediate::BankAreas);
 constexpr IntermediateSet seconds = bit(Intermediate::BankSeconds);
 constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
@@ -130,7 +136,7 @@ constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
 constexpr Pass reducePass{.name = "nacre bank reduce",
                           .file = "bank_reduce",
                           .spirv = bank_reduce_spv,
-                          .writes = raw | quads | areas | tiles,
+                          .writes = raw | pixelMaterials | areas | tiles,
                           .grid = reduceGrid,
                           .asksMaterials = true};
 constexpr Pass blurPass{.name = "nacre bank blur",
@@ -143,7 +149,7 @@ constexpr Pass blurPass{.name = "nacre bank blur",
 constexpr Pass edgePass{.name = "nacre bank combine edge",
                         .file = "bank_combine_edge",
                         .spirv = bank_combine_edge_spv,
-                        .reads = raw | blurred | quads | areas | tiles,
+                        .reads = raw | blurred | pixelMaterials | areas | tiles,
                         .indirect = Intermediate::BankTiles,
                         .indirectOffset = sizeof(BankDispatch),
                         .asksMaterials = true};
@@ -152,7 +158,7 @@ constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .spirv = bank_combine_smooth_spv,
                           .halfFile = "bank_combine_smooth_half",
                           .halfSpirv = bank_combine_smooth_half_spv,
-                          .reads = raw | blurred | quads | tiles,
+                          .reads = raw | blurred | pixelMaterials | tiles,
                           .indirect = Intermediate::BankTiles,
                           .indirectOffset = 0};
 constexpr Pass passes[] = {reducePass, blurPass, edgePass, smoothPass};
@@ -178,14 +184,12 @@ VkDeviceSize bankRawBytes(VkExtent2D maxExtent) {
 
 // One for each texel but those of level 1.
 VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
-    const VkExtent2D finest = levelExtent(maxExtent, 1);
-    return sizeof(uvec2) * (texelCount(maxExtent) - VkDeviceSize{finest.width} * finest.height);
+    return sizeof(uvec2) * (texelCount(maxExtent) - fineTexelCount(maxExtent));
 }
 
 // One word for each texel of level 1.
-VkDeviceSize bankQuadBytes(VkExtent2D maxExtent) {
-    const VkExtent2D finest = levelExtent(maxExtent, 1);
-    return VkDeviceSize{sizeof(std::uint32_t)} * finest.width * finest.height;
+VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
+    return sizeof(std::uint32_t) * fineTexelCount(maxExtent);
 }
 
 // Of the levels that keep one, finest first.
@@ -199,14 +203,15 @@ VkDeviceSize bankSecondBytes(VkExtent2D maxExtent) {
 }
 
 VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent) {
-    return 2 * bankQuadBytes(maxExtent);
+    return sizeof(uvec2) * fineTexelCount(maxExtent);
 }
 
-// The dispatches, then an entry for every tile, of which a cell has four, and room for all regions on either list: two
-// smooth ones a cell, or eight edge regions.
+// The dispatches, then a word for every tile, of which a cell has four, and two for every region that may be on a list:
+// two smooth ones a cell, or eight edge regions.
 VkDeviceSize bankTileBytes(VkExtent2D maxExtent) {
     const VkExtent2D cells = cellCount(maxExtent);
-    return 2 * sizeof(BankDispatch) + VkDeviceSize{sizeof(std::uint32_t)} * 14 * cells.width * cells.height;
+    return 2 * sizeof(BankDispatch) +
+           VkDeviceSize{sizeof(std::uint32_t)} * (4 + 2 * (2 + 8)) * cells.width * cells.height;
 }
 
 // The levels lie one after the other, finest first; their blocks are blurred coarsest first.

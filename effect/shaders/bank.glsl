@@ -10,7 +10,7 @@
 layout(constant_id = 0) const bool separateMaterials = false; // some do not exchange light with some others
 
 layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) BANK_ACCESS buffer BankRaw {
-    uvec4 rawTexels[]; // levels 1 … 6
+    uvec4 rawTexels[]; // levels 1 … 6; what is not written of level 1 lies in tiles without tileOccupied
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) BANK_ACCESS buffer BankBlurred {
     uvec2 blurredLights[]; // levels 2 … 6 (blurredIndex): light and mass, with a sign where the texel is not plain
@@ -19,21 +19,18 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std43
     // Of the same texels: depth and material that an empty texel's kernel stands on. A raw texel that is not empty has both.
     uvec2 borrowedSurfaces[];
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankQuads, std430) BANK_ACCESS buffer BankQuads {
-    uint quads[]; // 2x2 px each, as level 1 lies: packQuad
-};
 layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std430) BANK_ACCESS buffer BankMaterials {
-    uvec2 quadMaterials[]; // as quads: of the four pixels, only where they differ
+    uvec2 quadMaterials[]; // as level 1 lies: of the four pixels, only where they differ
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) BANK_ACCESS buffer BankAreas {
-    uint quadAreas[]; // as quads: packAreas of the four pixels
+    uint quadAreas[]; // as level 1 lies: packAreas of the four pixels
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) BANK_ACCESS buffer BankSeconds {
     uvec4 secondTexels[]; // levels 1 … secondLevels, as rawTexels: only where a texel has a second surface (secondBit)
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) BANK_ACCESS buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
-    // Per tile: tileOccupied, tileRough; then the list of smooth regions, then that of edge regions (listEntry).
+    // Per tile: tileOccupied, tileRough; then the lists of smooth regions and of edge regions, two words each (ListEntry).
     uint tileEntries[];
 };
 
@@ -47,9 +44,11 @@ const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a s
 const ivec2 partSize = ivec2(16, 8); // px, of an edge region; a smooth one is 2x2 of these
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
 const float maxHalf = 65504.0;
-const uint massBits = 0x7fffu;   // of a raw texel's last word; 0 = empty
-const uint secondBit = 0x10000u; // there, where materials are not separate and it holds none: it has a second surface
+// Of a raw texel's last word, from level 2 on: 0 = empty.
+const uint massBits = 0x3fffu;
 const uint fullMass = 0x3c00u;
+const uint droppedBit = 0x8000u; // the mass's sign
+const uint secondBit = 0x4000u;  // there, on level 1, too: the texel has a second surface; masses are below 2
 const uint signBit = 0x80000000u;
 
 // A texel of the reduced pyramid.
@@ -87,7 +86,7 @@ uvec4 packRaw(RawTexel texel) {
 RawTexel unpackRaw(uvec4 words) {
     vec2 redGreen = unpackHalf2x16(words.x);
     vec2 blueArea = unpackHalf2x16(words.y);
-    float mass = unpackHalf2x16(words.w).x;
+    float mass = unpackHalf2x16(words.w & ~secondBit).x;
     return RawTexel(vec3(redGreen, blueArea.x) * blueArea.y, blueArea.y, abs(mass), uintBitsToFloat(words.z), words.w >> 16,
                     mass < 0.0);
 }
@@ -98,21 +97,22 @@ uvec2 packBlurred(BlurredTexel texel) {
     return uvec2(packHalf2x16(texel.light.rg), packHalf2x16(vec2(texel.light.b, texel.mass)) | sign);
 }
 
-const uint mixedBit = 0x8000u; // of a quad: its materials are in quadMaterials
+const uint mixedBit = 0x8000u; // of a quad: its pixels' materials are in quadMaterials
 
-// What the combination knows of 2x2 px beside their texel of level 1: the weights beside the middle of the full-resolution
-// 3x3 in x and y, 7 bits each, and above them the material, where one is all of theirs.
-uint packQuad(vec2 beside, uvec2 materials) {
+// The last word of a texel of level 1, whose mass only pass A needs: what the combination wants to know of its 2x2 px. The
+// weights beside the middle of the full-resolution 3x3 in x and y, 7 bits each, secondBit, whether materials differ, and above
+// them that of all four or, where they differ, the texel's.
+uint packQuad(vec2 beside, uvec2 materials, uint texelMaterial) {
     bool mixed = materials != uvec2((materials.x & 0xffffu) * 0x10001u);
     uvec2 weights = uvec2(254.0 * beside + 0.5);
-    return weights.x | weights.y << 7 | (mixed ? mixedBit : materials.x << 16);
+    return weights.x | weights.y << 7 | (mixed ? mixedBit | texelMaterial << 16 : materials.x << 16);
 }
 
 vec2 besideOf(uint quad) {
     return vec2(quad & 127u, quad >> 7 & 127u) / 254.0;
 }
 
-// Of the four pixels of quads[index], 16 bits each.
+// Of the four pixels of level 1's texel at `index`, 16 bits each.
 uvec2 materialsOf(uint quad, int index) {
     return (quad & mixedBit) != 0u ? quadMaterials[index] : uvec2((quad >> 16) * 0x10001u);
 }
@@ -141,15 +141,26 @@ ivec2 regionCount() {
     return levelExtent(rawLevels) / ivec2(2, 1);
 }
 
-// Where the list of smooth (0) or edge regions (1) begins in tileEntries.
-int regionList(int kind) {
+// Where an entry of the list of smooth (0) or edge regions (1) is in tileEntries.
+int listPlace(int kind, uint entry) {
     ivec2 regions = regionCount();
-    return (2 + kind) * regions.x * regions.y;
+    return (2 + 2 * kind) * regions.x * regions.y + 2 * int(entry);
 }
 
-// A region on a list: its first part, and of a smooth one bits of its parts that are edge regions.
-uint listEntry(ivec2 part, uint edges) {
-    return uint(part.x) | uint(part.y) << 12 | edges << 24;
+// A region on a list.
+struct ListEntry {
+    ivec2 part;    // its first
+    uint left;     // of a smooth one: bits of the parts that it leaves out
+    uint occupied; // bits of tiles with tileOccupied, in rows of four from the one left of and above its first on
+};
+
+uint packPart(ListEntry entry) {
+    return uint(entry.part.x) | uint(entry.part.y) << 12 | entry.left << 24;
+}
+
+// From its two words.
+ListEntry unpackListEntry(uint part, uint occupied) {
+    return ListEntry(ivec2(part & 0xfffu, part >> 12 & 0xfffu), part >> 24, occupied);
 }
 
 // Bits of a tile's entry: whether pixels have an id,
@@ -178,6 +189,13 @@ uvec4 rawWords(int level, ivec2 texel) {
     ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
     uvec4 words = rawTexels[texelIndex(level, inside)];
     return texel == inside ? words : uvec4(0u);
+}
+
+// Where a thread is in a block of a power of two columns, two rows at a time, so that four threads that follow one another are
+// 2x2: images lie in memory so, and are fetched and stored faster.
+ivec2 quadOrder(int thread, int columns) {
+    int inRows = thread & 2 * columns - 1;
+    return ivec2(thread & 1 | inRows >> 1 & ~1, inRows >> 1 & 1 | thread / columns & ~1);
 }
 
 // Position of one of the places around a block, counted row above, row below, then the sides.

@@ -3,7 +3,6 @@
 
 // 2x2 px, row by row.
 struct Block {
-    bool occupied; // whether some pixel has an id
     uint material[4];
     float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
     vec3 light[4];  // irradiance; from decodeBlock on as it enters
@@ -44,31 +43,43 @@ int depthPlace(ivec2 pixel) {
     return (pixel.y + 1) * pitch + pixel.x + 1;
 }
 
-Block fetchBlock(ivec2 first) {
+// Material ids of a block, 0 beyond the area.
+uvec4 fetchIds(ivec2 first) {
+    uvec4 ids;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ids[i] = texelFetch(materialIdImage, ownPixel(first + offsetOf(i)), 0).r;
+    }
+    bvec2 inside = lessThan(first + 1, view.areaExtent);
+    bvec2 begins = lessThan(first, view.areaExtent);
+    return ids * uvec4(all(begins), inside.x && begins.y, begins.x && inside.y, all(inside));
+}
+
+Block fetchBlock(ivec2 first, uvec4 ids) {
     Block block;
-    uint id[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 pixel = ownPixel(first + offsetOf(i));
-        id[i] = isBeforeEnd(first + offsetOf(i)) ? texelFetch(materialIdImage, pixel, 0).r : 0u;
         block.depth[i] = texelFetch(depthImage, pixel, 0).r;
         block.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
+        block.material[i] = materialOfId(ids[i]);
     }
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        block.material[i] = materialOfId(id[i]);
-    }
-    block.occupied = (id[0] | id[1] | id[2] | id[3]) != 0u;
     return block;
 }
 
-// The pixels around the tile, without its corners: one a thread.
-RingPixel fetchRing(ivec2 tileFirst, int thread) {
+// The pixels around the tile, without its corners: one a thread, counted from the tile's first.
+ivec2 ringPlace(int thread) {
     int along = thread & tileSize - 1;
     int beyond = (thread & tileSize) == 0 ? -1 : tileSize;
-    ivec2 place = thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
+    return thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
+}
+
+uint fetchRingId(ivec2 tileFirst, ivec2 place) {
+    uint id = texelFetch(materialIdImage, imagePixel(tileFirst + place), 0).r;
+    return isInExtent(tileFirst + place) ? id : 0u;
+}
+
+RingPixel fetchRing(ivec2 tileFirst, ivec2 place, uint id) {
     ivec2 pixel = imagePixel(tileFirst + place);
-    float depth = texelFetch(depthImage, pixel, 0).r;
-    uint material = isInExtent(tileFirst + place) ? materialAt(pixel) : 0u;
-    return RingPixel(pixel, depthPlace(place), material, depth);
+    return RingPixel(pixel, depthPlace(place), materialOfId(id), texelFetch(depthImage, pixel, 0).r);
 }
 
 float receivingDepth(uint material, ivec2 pixel, float depth) {

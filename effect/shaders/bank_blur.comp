@@ -55,7 +55,7 @@ const uint anything = 4u;
 // Of a texel by itself …
 uint roughnessOf(uvec4 words) {
     // The mass, a half; with a sign something was left out.
-    return ((words.w & 0xffffu) == fullMass ? 0u : notFull) | ((words.w & 0x8000u) != 0u ? anyStep : 0u) |
+    return ((words.w & 0xffffu) == fullMass ? 0u : notFull) | ((words.w & droppedBit) != 0u ? anyStep : 0u) |
            (words.z != 0u ? anything : 0u);
 }
 

@@ -16,7 +16,7 @@ shared uint fineMaterials[separateMaterials ? fineCount : 1];
 shared uvec2 fineSecondLights[secondLevels > 0 ? fineCount : 1];
 shared float fineSecondDepths[secondLevels > 0 ? fineCount : 1];
 
-void storeFine(int place, ivec2 texel, uvec4 words) {
+void storeFine(int place, int index, uvec4 words) {
     fineLights[place] = words.xy;
     fineDepths[place] = uintBitsToFloat(words.z);
     if (separateMaterials) {
@@ -25,7 +25,7 @@ void storeFine(int place, ivec2 texel, uvec4 words) {
     if (secondLevels > 0) {
         fineSecondDepths[place] = 0.0;
         if ((words.w & secondBit) != 0u) {
-            uvec4 second = secondTexels[texelIndex(1, texel)];
+            uvec4 second = secondTexels[index];
             fineSecondLights[place] = second.xy;
             fineSecondDepths[place] = uintBitsToFloat(second.z);
         }
@@ -34,7 +34,7 @@ void storeFine(int place, ivec2 texel, uvec4 words) {
 
 // Fetches everything before anything is used, so that the fetches overlap: one half of the threads the pixels around, the
 // other the coarser levels. Returns the material of the thread's pixel.
-uint loadRegion(ivec2 region, int thread, ivec2 local) {
+uint loadRegion(Region region, int thread, ivec2 local) {
     Fetched own = fetchPixel(region, local);
     bool isCoarse = thread >= threads / 2;
     int number = min(thread % (threads / 2), coarseCount - 1);
@@ -44,17 +44,22 @@ uint loadRegion(ivec2 region, int thread, ivec2 local) {
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel;
     if (isCoarse) {
-        coarse = findCoarse(number, region);
+        coarse = findCoarse(number, region.first);
         light = blurredLights[blurredIndex(coarse.index)];
         surface = rawTexels[coarse.index].zw;
     } else {
         ringPixel = fetchPixel(region, ring);
     }
     int fine = min(thread, fineCount - 1);
-    ivec2 fineTexel = (region >> 1) + ivec2(fine % finePitch, fine / finePitch) - 2;
-    uvec4 words = rawWords(1, fineTexel);
+    int texelPlace = fineTexelIndex(region, ivec2(fine % finePitch, fine / finePitch) - 2);
+    uvec4 fineWords = rawTexels[texelPlace];
+    if (!readsOccupied(region)) {
+        fineWords = isOccupied(region, ivec2(fine % finePitch, fine / finePitch) - 2) ? fineWords : uvec4(0u);
+        own.quadWord = isOccupied(region, local >> 1) ? own.quadWord : 0u;
+        ringPixel.quadWord = isOccupied(region, ring >> 1) ? ringPixel.quadWord : 0u;
+    }
     if (thread < fineCount) {
-        storeFine(fine, fineTexel, words);
+        storeFine(fine, texelPlace, fineWords);
     }
     if (isCoarse && thread % (threads / 2) < coarseCount) {
         storeLevelTexel(coarse, light);
@@ -248,9 +253,8 @@ vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
 }
 
 void main() {
-    ivec2 region;
-    uint edges;
-    if (!findRegion(1, region, edges)) {
+    Region region;
+    if (!findRegion(1, region)) {
         return;
     }
     int thread = int(gl_LocalInvocationIndex);
@@ -263,18 +267,18 @@ void main() {
     barrier();
     float depth = pixelDepths[ownPlace(local, ivec2(0))]; // 0 where there is no material
     if (depth > 0.0) {
-        Mixture mixture = findMixture(material, depth, region + local + view.areaOffset);
+        Mixture mixture = findMixture(material, depth, region.first + local + view.areaOffset);
         Sum sum = noSum();
         uint used = usedKernels(mixture);
-        vec3 left = addLevels(sum, mixture, used, region, local, depth, material);
+        vec3 left = addLevels(sum, mixture, used, region.first, local, depth, material);
         if ((used & finestKernel) != 0u) {
             addFinestLevel(sum, kernelWeight(mixture, 2) + left, local, depth, material);
             left = vec3(0.0);
         }
         addPixels(sum, kernelWeight(mixture, 1) + left, local, material, depth);
         addIdentity(sum, kernelWeight(mixture, 0), local);
-        storeGroup(region + local, bvec4(true), material, mixture.strength, sum);
+        storeGroup(region.first + local, bvec4(true), material, mixture.strength, sum);
     } else {
-        storeRest(region + local, 0u);
+        storeRest(region.first + local, 0u);
     }
 }

@@ -234,13 +234,13 @@ struct Quad {
     float depth;
 };
 
-// Threads of a part of the region follow one another, so that those of one that is an edge region end together.
+// Threads of a part of the region follow one another, so that those of one that is left out end together.
 const int partThreads = threads / 4;
 
 // A thread's quad, as a texel of level 1.
 ivec2 texelOf(int part, int index) {
     ivec2 size = partSize / 2;
-    return size * ivec2(part & 1, part >> 1) + ivec2(index & (size.x - 1), index / size.x);
+    return size * ivec2(part & 1, part >> 1) + quadOrder(index, size.x);
 }
 
 // Whether the material of one of a quad's pixels, counted row by row, is this one.
@@ -250,25 +250,29 @@ bool hasMaterial(Quad quad, int i, uint material) {
 }
 
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
-Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
+Quad loadRegion(Region region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
-    int fine = texelIndex(1, (region >> 1) + texel);
-    uint quadWord = quads[fine];
+    int fine = fineTexelIndex(region, texel);
     uvec4 fineTexel = rawTexels[fine];
-    ivec2 first = region + 2 * texel;
+    ivec2 first = region.first + 2 * texel;
     vec3 lights[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         lights[i] = fetchLight(min(first + ivec2(i & 1, i >> 1), last));
     }
     int ringThread = threads - 1 - thread;
     ivec2 fineRing = fineRingPosition(min(ringThread, fineRingCount - 1));
-    uvec2 ringLight = rawWords(1, (region >> 1) + fineRing).xy;
-    Coarse coarse = findCoarse(min(thread, coarseCount - 1), region);
+    uvec2 ringLight = rawTexels[fineTexelIndex(region, fineRing)].xy;
+    Coarse coarse = findCoarse(min(thread, coarseCount - 1), region.first);
     uvec2 coarseLight = blurredLights[blurredIndex(coarse.index)];
     uvec2 coarseSurface = rawTexels[coarse.index].zw;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel = fetchPixel(region, ring);
-    Quad quad = Quad(quadWord, materialsOf(quadWord, fine), uintBitsToFloat(fineTexel.z));
+    if (!readsOccupied(region)) {
+        fineTexel = isOccupied(region, texel) ? fineTexel : uvec4(0u);
+        ringLight = isOccupied(region, fineRing) ? ringLight : uvec2(0u);
+        ringPixel.quadWord = isOccupied(region, ring >> 1) ? ringPixel.quadWord : 0u;
+    }
+    Quad quad = Quad(fineTexel.w, materialsOf(fineTexel.w, fine), uintBitsToFloat(fineTexel.z));
     if (hasFlag(flagAlbedo)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
             ivec2 pixel = min(first + ivec2(i & 1, i >> 1), last);
@@ -294,9 +298,8 @@ Quad loadRegion(ivec2 region, int thread, ivec2 texel) {
 }
 
 void main() {
-    ivec2 region;
-    uint edges;
-    if (!findRegion(0, region, edges)) {
+    Region region;
+    if (!findRegion(0, region)) {
         return;
     }
     int thread = int(gl_LocalInvocationIndex);
@@ -308,10 +311,10 @@ void main() {
     barrier();
     Quad quad = loadRegion(region, thread, texel);
     barrier();
-    if ((edges >> part & 1u) != 0u) {
+    if ((region.left >> part & 1u) != 0u) {
         return;
     }
-    ivec2 first = region + 2 * texel;
+    ivec2 first = region.first + 2 * texel;
     uint scattering = 0u; // bits of the pixels that have a material
     [[unroll]] for (int i = 0; i < 4; ++i) {
         scattering |= hasMaterial(quad, i, 0u) ? 0u : 1u << i;
@@ -341,7 +344,7 @@ void main() {
             filterFinestLevel(lights, texel, beside);
             addKernel(sum, kernelWeight(mixture, 2), lights);
         }
-        addCoarseLevels(sum, mixture, used, region, 2 * texel, quad.depth);
+        addCoarseLevels(sum, mixture, used, region.first, 2 * texel, quad.depth);
         storeGroup(first, members, material, mixture.strength, sum);
     }
     if (scattering != 15u) {

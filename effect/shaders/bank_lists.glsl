@@ -26,12 +26,15 @@ uint roughBeside(ivec2 tile, bool lower) {
     return rows[tile.y + 1] * columns << 1;
 }
 
-// What combines a region: bits of its parts that are edge regions, and whether the rest is a smooth one. Neither where no
-// pixel has a material.
+// What combines a region: bits of its parts that are edge regions, and of those in which no pixel has a material; the rest is a
+// smooth one.
 struct Combination {
     uint edges;
-    bool smoothRest;
+    uint empty;
+    uint occupied; // ListEntry
 };
+
+const Combination emptyCombination = Combination(0u, 15u, 0u);
 
 Combination combinationOf(ivec2 region) {
     ivec2 first = region * ivec2(2, 1);
@@ -42,16 +45,21 @@ Combination combinationOf(ivec2 region) {
         ivec2 tile = first + place;
         bool inside = tile == clamp(tile, ivec2(0), levelExtent(rawLevels) - 1);
         uint entry = inside ? tileEntries[tileIndex(tile)] : 0u;
-        bool own = place.y == 0 && (place.x == 0 || place.x == 1);
-        occupied |= own ? entry & tileOccupied : 0u;
+        occupied |= (entry & tileOccupied) << i;
         [[unroll]] for (int part = 0; part < 4; ++part) {
             rough |= (entry & roughBeside(place - ivec2(part & 1, 0), part > 1)) != 0u ? 1u << part : 0u;
         }
     }
+    uint empty = ((occupied & 1u << 5) == 0u ? 5u : 0u) | ((occupied & 1u << 6) == 0u ? 10u : 0u);
+    rough &= ~empty;
     // Where materials are separate, pixels are combined tap by tap.
     bool noneSmooth = separateMaterials || bitCount(rough) > bankMostEdgeParts;
-    uint edges = noneSmooth ? 15u : rough;
-    return occupied == 0u ? Combination(0u, false) : Combination(edges, !noneSmooth);
+    return Combination(noneSmooth ? 15u & ~empty : rough, empty, occupied);
+}
+
+void storeListEntry(int place, ListEntry entry) {
+    tileEntries[place] = packPart(entry);
+    tileEntries[place + 1] = entry.occupied;
 }
 
 // A region a thread; `group`: of those that list.
@@ -63,20 +71,23 @@ void listRegions(int group, int thread) {
     ivec2 regions = regionCount();
     int index = group * threads + thread;
     ivec2 region = ivec2(index % regions.x, index / regions.x);
-    Combination combination = region.y < regions.y ? combinationOf(region) : Combination(0u, false);
-    uint smoothPlace = combination.smoothRest ? atomicAdd(listed[0], 1u) : 0u;
+    Combination combination = region.y < regions.y ? combinationOf(region) : emptyCombination;
+    uint left = combination.edges | combination.empty;
+    bool smoothRest = left != 15u;
+    uint smoothPlace = smoothRest ? atomicAdd(listed[0], 1u) : 0u;
     uint edgePlace = combination.edges != 0u ? atomicAdd(listed[1], uint(bitCount(combination.edges))) : 0u;
     barrier();
     if (thread < 2) {
         listed[thread] = extendList(thread, listed[thread]);
     }
     barrier();
-    if (combination.smoothRest) {
-        tileEntries[regionList(0) + int(listed[0] + smoothPlace)] = listEntry(2 * region, combination.edges);
+    if (smoothRest) {
+        storeListEntry(listPlace(0, listed[0] + smoothPlace), ListEntry(2 * region, left, combination.occupied));
     }
-    int place = regionList(1) + int(listed[1] + edgePlace);
-    for (uint left = combination.edges; left != 0u; left &= left - 1u) {
-        int part = findLSB(left);
-        tileEntries[place++] = listEntry(2 * region + ivec2(part & 1, part >> 1), 0u);
+    uint entry = listed[1] + edgePlace;
+    for (uint edges = combination.edges; edges != 0u; edges &= edges - 1u) {
+        int part = findLSB(edges);
+        ivec2 offset = ivec2(part & 1, part >> 1);
+        storeListEntry(listPlace(1, entry++), ListEntry(2 * region + offset, 0u, combination.occupied >> offset.x & 0x777u));
     }
 }

@@ -26,8 +26,8 @@ const uint notFull = 1u;
 
 #include "bank_block.glsl"
 
-// In shared memory, at its place there, and in the pyramid.
-void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel) {
+// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 packQuad.
+void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint quad) {
     RawTexel first = surfaces.first;
     lightsAndAreas[place] = vec4(first.light, first.area);
     depthsAndMasses[place] = vec2(first.depth, first.dropped ? -first.mass : first.mass);
@@ -36,6 +36,7 @@ void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel) {
     }
     int index = texelIndex(level, texel);
     uvec4 packed = packRaw(first);
+    packed.w = level == 1 ? quad : packed.w;
     if (keepsSeconds(level)) {
         uvec4 second = packRaw(surfaces.second);
         seconds[place] = second;
@@ -71,7 +72,7 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     }
     Surfaces surfaces = keepsSeconds(level) ? reduceSurfaces(children, others, level)
                                                   : Surfaces(reduceTexels(children, level), emptyTexel());
-    storeSurfaces(surfaces, first, level, (tile << shift) + texel);
+    storeSurfaces(surfaces, first, level, (tile << shift) + texel, 0u);
 }
 
 // Sums of a whole tile's texels, which all are full.
@@ -123,17 +124,19 @@ void reduceWholeTile(ivec2 tile, int thread) {
     }
 }
 
-void storeQuad(int index, vec2 slope, uvec2 materials) {
-    uint quad = packQuad(weightsBeside(slope), materials);
-    quads[index] = quad;
+void storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
+    int index = texelIndex(1, tile * side + texel);
+    uint quad = packQuad(weightsBeside(reduced.slope), materials, separateMaterials ? reduced.texel.material : 0u);
     if ((quad & mixedBit) != 0u) {
         quadMaterials[index] = materials;
     }
+    quadAreas[index] = packAreas(reduced.areas);
+    storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel, quad);
 }
 
-// A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters. It is fetched once
-// more, row by row, so that it is stored so, too.
-void emptyTile(ivec2 tile, ivec2 texel, int thread) {
+// A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters, row by row. Of level 1
+// nothing is written: pass C knows which tiles are empty.
+void emptyTile(ivec2 tile, int thread) {
     bool hasAlbedo = hasFlag(flagAlbedo);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 local = tile * tileSize + ivec2(thread % tileSize, thread / tileSize + 4 * i);
@@ -143,9 +146,6 @@ void emptyTile(ivec2 tile, ivec2 texel, int thread) {
             imageStore(scatteredImage, local + view.areaOffset, vec4(light * albedo, 1.0));
         }
     }
-    int index = texelIndex(1, tile * side + texel);
-    rawTexels[index] = uvec4(0u);
-    quads[index] = 0u;
     for (int level = 2; level <= rawLevels; ++level) {
         int width = tileSize >> level;
         if (thread < width * width) {
@@ -162,30 +162,33 @@ void clearDispatches() {
 void main() {
     int thread = int(gl_LocalInvocationIndex);
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
-    ivec2 texel = ivec2(gl_LocalInvocationID.xy);
+    ivec2 texel = quadOrder(thread, side);
     ivec2 first = tile * tileSize + 2 * texel;
+    ivec2 beside = ringPlace(thread);
+    uvec4 ids = fetchIds(first);
+    uint ringId = fetchRingId(tile * tileSize, beside);
     if (thread == 0) {
         occupied = 0u;
         roughness = 0u;
+        if (tile == ivec2(0)) {
+            clearDispatches();
+        }
     }
     barrier();
-    // Everything is fetched before anything is asked, so that the fetches overlap.
-    Block block = fetchBlock(first);
-    RingPixel ring = fetchRing(tile * tileSize, thread);
-    if (block.occupied) {
+    if (ids != uvec4(0u)) {
         atomicOr(occupied, 1u);
     }
     barrier();
-    if (thread == 0 && tile == ivec2(0)) {
-        clearDispatches();
-    }
     if (occupied == 0u) {
         if (thread == 0) {
             tileEntries[tileIndex(tile)] = 0u;
         }
-        emptyTile(tile, texel, thread);
+        emptyTile(tile, thread);
         return;
     }
+    // Ids were fetched first, so that an empty tile ends sooner; all the rest before anything is asked, so that fetches overlap.
+    Block block = fetchBlock(first, ids);
+    RingPixel ring = fetchRing(tile * tileSize, beside, ringId);
     decodeBlock(block, first);
     int place = depthPlace(2 * texel);
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -193,12 +196,8 @@ void main() {
     }
     depths[ring.place] = receivingDepth(ring.material, ring.pixel, ring.depth);
     barrier();
-    Reduced reduced = reduceBlock(block, place, texel);
-    storeSurfaces(Surfaces(reduced.texel, reduced.second), thread, 1, tile * side + texel);
-    int index = texelIndex(1, tile * side + texel);
-    storeQuad(index, reduced.slope,
-              uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16));
-    quadAreas[index] = packAreas(reduced.areas);
+    uvec2 materials = uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16);
+    storeQuad(reduceBlock(block, place, texel), materials, tile, texel);
     barrier();
     if (thread == 0) {
         tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notFull);

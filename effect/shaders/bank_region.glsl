@@ -51,16 +51,22 @@ shared uint levelMaterials[isEdge && separateMaterials ? coarseRoom : 1];
 // Bit l: some texel of level l is not plain, and taps have depth weights of their own; else bilinear ones will do.
 shared uint roughLevels;
 
-// The region that this workgroup combines, in px of the render area, without the parts that are edge regions, a bit each;
-// false where there is none.
-bool findRegion(int kind, out ivec2 region, out uint edges) {
-    uint entry = gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x;
-    if (gl_NumWorkGroups.y > 1u && entry >= dispatches[kind].count) { // the last row is not full
+// What this workgroup combines.
+struct Region {
+    ivec2 first;   // px of the render area
+    uint left;     // ListEntry
+    uint occupied; // ListEntry
+};
+
+// False where there is none.
+bool findRegion(int kind, out Region region) {
+    uint index = gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x;
+    if (gl_NumWorkGroups.y > 1u && index >= dispatches[kind].count) { // the last row is not full
         return false;
     }
-    uint place = tileEntries[regionList(kind) + int(entry)];
-    region = ivec2(place & 0xfffu, place >> 12 & 0xfffu) * partSize;
-    edges = place >> 24;
+    int place = listPlace(kind, index);
+    ListEntry entry = unpackListEntry(tileEntries[place], tileEntries[place + 1]);
+    region = Region(entry.part * partSize, entry.left, entry.occupied);
     return true;
 }
 
@@ -71,6 +77,23 @@ ivec2 levelFirst(int level, ivec2 region) {
 
 int globalIndex(int level, ivec2 texel) {
     return texelIndex(level, clamp(texel, ivec2(0), levelExtent(level) - 1));
+}
+
+// Of a texel of level 1, counted from the region's first.
+int fineTexelIndex(Region region, ivec2 texel) {
+    return globalIndex(1, (region.first >> 1) + texel);
+}
+
+// Whether all tiles that a region reads hold subsurface pixels. Of level 1 pass A has written nothing in others, and what is
+// read there is taken for empty; so are the sides of the image.
+bool readsOccupied(Region region) {
+    return region.occupied == (isEdge ? 0x777u : 0xfffu);
+}
+
+// Of the tile of a texel of level 1.
+bool isOccupied(Region region, ivec2 texel) {
+    ivec2 tile = ((region.first >> 1) + texel >> 3) - (region.first >> 4) + 1;
+    return (region.occupied >> (4 * tile.y + tile.x) & 1u) != 0u;
 }
 
 // Where the first of the packed levels begins in the sheet.
@@ -145,7 +168,7 @@ void storePixel(int index, vec3 light, float depth, float area, uint material) {
 // A pixel at any place of the region or around it, or the one of the image that is nearest.
 struct Fetched {
     ivec2 local;
-    int quad; // its place
+    int quad; // its texel of level 1
     uint quadWord;
     uint areas; // of the quad's pixels
     vec3 light;
@@ -153,17 +176,17 @@ struct Fetched {
 };
 
 // `place`: counted from the region's first pixel.
-Fetched fetchPixel(ivec2 region, ivec2 place) {
-    ivec2 local = clamp(region + place, ivec2(0), view.areaExtent - 1);
-    int quad = texelIndex(1, local >> 1);
-    return Fetched(local, quad, quads[quad], isEdge ? quadAreas[quad] : 0u, fetchLight(local),
+Fetched fetchPixel(Region region, ivec2 place) {
+    ivec2 local = clamp(region.first + place, ivec2(0), view.areaExtent - 1);
+    int quad = fineTexelIndex(region, place >> 1);
+    return Fetched(local, quad, rawTexels[quad].w, isEdge ? quadAreas[quad] : 0u, fetchLight(local),
                    isEdge ? distanceAlongRay(local + view.areaOffset, viewZ(local + view.areaOffset)) : 0.0);
 }
 
 // Returns its material, 0 outside the image.
-uint storeFetched(ivec2 region, ivec2 place, Fetched fetched) {
+uint storeFetched(Region region, ivec2 place, Fetched fetched) {
     uint material = pixelMaterial(materialsOf(fetched.quadWord, fetched.quad), fetched.local);
-    material = fetched.local == region + place ? material : 0u;
+    material = fetched.local == region.first + place ? material : 0u;
     vec3 light = fetched.light;
     if (hasFlag(flagAlbedo)) {
         light *= albedoBefore(fetched.local + view.areaOffset, material);

@@ -63,11 +63,10 @@ NACRE_CONSTANT intermediateNoShadowMap = 2;
 NACRE_CONSTANT intermediateBankRaw = 3;
 NACRE_CONSTANT intermediateBankBlurred = 4;
 NACRE_CONSTANT intermediateBankSurfaces = 5;
-NACRE_CONSTANT intermediateBankQuads = 6;
-NACRE_CONSTANT intermediateBankAreas = 7;
-NACRE_CONSTANT intermediateBankTiles = 8;
-NACRE_CONSTANT intermediateBankMaterials = 9;
-NACRE_CONSTANT intermediateBankSeconds = 10;
+NACRE_CONSTANT intermediateBankAreas = 6;
+NACRE_CONSTANT intermediateBankTiles = 7;
+NACRE_CONSTANT intermediateBankMaterials = 8;
+NACRE_CONSTANT intermediateBankSeconds = 9;
 
 NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
 
