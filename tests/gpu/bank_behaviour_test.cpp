@@ -162,6 +162,30 @@ TEST_P(BankBehaviourTest, ZoomingDoesNotPop) {
     EXPECT_GE(decibels(jump, count), 65);
 }
 
+// Whole tiles that held a surface and light in the frame before, and hold none now, are as if they never had.
+TEST_P(BankBehaviourTest, NothingStaysOfTheFrameBefore) {
+    for (const SceneKind kind : tunedSceneKinds) {
+        const SceneSettings settings{.kind = kind, .footprint = 60, .width = 200, .height = 136};
+        ScatterScene before = makeScatterScene(settings);
+        ScatterScene scene = makeScatterScene(settings);
+        for (int y = 0; y < scene.height; ++y) {
+            for (int x = 0; x < scene.width; ++x) {
+                const std::size_t i = scene.index(x, y);
+                before.irradiance[i] = {900, 900, 900};
+                const bool isEmptyTile = (x / 16 * 5 + y / 16 * 3) % 7 < 3 || x >= 150;
+                scene.materialId[i] = isEmptyTile ? 0 : scene.materialId[i];
+            }
+        }
+        const auto effect = makeEffect(scene);
+        scatter(*effect, before);
+        const std::vector<Float4> after = scatter(*effect, scene);
+        const std::vector<Float4> alone = scatter(*makeEffect(scene), scene);
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            ASSERT_EQ(after[i], alone[i]) << scene.name << ", pixel " << i % scene.width << ", " << i / scene.width;
+        }
+    }
+}
+
 // Not a number, infinite and absurd inputs stay where they are; so does a pixel far from everything.
 TEST_P(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
