@@ -49,9 +49,9 @@ uvec4 fetchIds(ivec2 first) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ids[i] = texelFetch(materialIdImage, ownPixel(first + offsetOf(i)), 0).r;
     }
-    bvec2 inside = lessThan(first + 1, view.areaExtent);
     bvec2 begins = lessThan(first, view.areaExtent);
-    return ids * uvec4(all(begins), inside.x && begins.y, begins.x && inside.y, all(inside));
+    bvec2 ends = lessThan(first + 1, view.areaExtent);
+    return mix(uvec4(0u), ids, bvec4(all(begins), ends.x && begins.y, begins.x && ends.y, all(ends)));
 }
 
 Block fetchBlock(ivec2 first, uvec4 ids) {
