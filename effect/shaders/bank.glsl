@@ -151,8 +151,16 @@ int listPlace(int kind, uint entry) {
 struct ListEntry {
     ivec2 part;    // its first
     uint left;     // of a smooth one: bits of the parts that it leaves out
-    uint occupied; // bits of tiles with tileOccupied, in rows of four from the one left of and above its first on
+    uint occupied; // occupiedBit of the tiles that it reads and that have tileOccupied
 };
+
+// Of a tile that lies so far from the one left of and above the region's first, and of all that a region of either kind reads.
+uint occupiedBit(ivec2 tile) {
+    return 1u << (4 * tile.y + tile.x);
+}
+
+const uint smoothReads = 0xfffu; // 4x3 tiles
+const uint edgeReads = 0x777u;   // 3x3
 
 uint packPart(ListEntry entry) {
     return uint(entry.part.x) | uint(entry.part.y) << 12 | entry.left << 24;
@@ -182,13 +190,6 @@ int texelIndex(int level, ivec2 texel) {
 // Of a texel of the levels that are blurred, whose place in the whole pyramid `index` is.
 int blurredIndex(int index) {
     return index - parameters.bankLevels[2].x;
-}
-
-// A texel's words; those of an empty one outside the level.
-uvec4 rawWords(int level, ivec2 texel) {
-    ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
-    uvec4 words = rawTexels[texelIndex(level, inside)];
-    return texel == inside ? words : uvec4(0u);
 }
 
 // Where a thread is in a block of a power of two columns, two rows at a time, so that four threads that follow one another are

@@ -21,6 +21,13 @@ shared float depths[loadedCount]; // 0 = empty
 shared uint massesAndMaterials[loadedCount];
 shared uint rough; // bits of roughness
 
+// A texel's words; those of an empty one outside the level.
+uvec4 rawWords(int level, ivec2 texel) {
+    ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
+    uvec4 words = rawTexels[texelIndex(level, inside)];
+    return texel == inside ? words : uvec4(0u);
+}
+
 struct Block {
     int level;
     ivec2 first; // texel

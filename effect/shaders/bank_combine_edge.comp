@@ -51,10 +51,11 @@ uint loadRegion(Region region, int thread, ivec2 local) {
         ringPixel = fetchPixel(region, ring);
     }
     int fine = min(thread, fineCount - 1);
-    int texelPlace = fineTexelIndex(region, ivec2(fine % finePitch, fine / finePitch) - 2);
+    ivec2 fineTexel = ivec2(fine % finePitch, fine / finePitch) - 2;
+    int texelPlace = fineTexelIndex(region, fineTexel);
     uvec4 fineWords = rawTexels[texelPlace];
     if (!readsOccupied(region)) {
-        fineWords = isOccupied(region, ivec2(fine % finePitch, fine / finePitch) - 2) ? fineWords : uvec4(0u);
+        fineWords = isOccupied(region, fineTexel) ? fineWords : uvec4(0u);
         own.quadWord = isOccupied(region, local >> 1) ? own.quadWord : 0u;
         ringPixel.quadWord = isOccupied(region, ring >> 1) ? ringPixel.quadWord : 0u;
     }

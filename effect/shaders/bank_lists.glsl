@@ -45,12 +45,12 @@ Combination combinationOf(ivec2 region) {
         ivec2 tile = first + place;
         bool inside = tile == clamp(tile, ivec2(0), levelExtent(rawLevels) - 1);
         uint entry = inside ? tileEntries[tileIndex(tile)] : 0u;
-        occupied |= (entry & tileOccupied) << i;
+        occupied |= (entry & tileOccupied) != 0u ? occupiedBit(place + 1) : 0u;
         [[unroll]] for (int part = 0; part < 4; ++part) {
             rough |= (entry & roughBeside(place - ivec2(part & 1, 0), part > 1)) != 0u ? 1u << part : 0u;
         }
     }
-    uint empty = ((occupied & 1u << 5) == 0u ? 5u : 0u) | ((occupied & 1u << 6) == 0u ? 10u : 0u);
+    uint empty = ((occupied & occupiedBit(ivec2(1))) == 0u ? 5u : 0u) | ((occupied & occupiedBit(ivec2(2, 1))) == 0u ? 10u : 0u);
     rough &= ~empty;
     // Where materials are separate, pixels are combined tap by tap.
     bool noneSmooth = separateMaterials || bitCount(rough) > bankMostEdgeParts;
@@ -88,6 +88,6 @@ void listRegions(int group, int thread) {
     for (uint edges = combination.edges; edges != 0u; edges &= edges - 1u) {
         int part = findLSB(edges);
         ivec2 offset = ivec2(part & 1, part >> 1);
-        storeListEntry(listPlace(1, entry++), ListEntry(2 * region + offset, 0u, combination.occupied >> offset.x & 0x777u));
+        storeListEntry(listPlace(1, entry++), ListEntry(2 * region + offset, 0u, combination.occupied >> offset.x & edgeReads));
     }
 }

@@ -87,13 +87,13 @@ int fineTexelIndex(Region region, ivec2 texel) {
 // Whether all tiles that a region reads hold subsurface pixels. Of level 1 pass A has written nothing in others, and what is
 // read there is taken for empty; so are the sides of the image.
 bool readsOccupied(Region region) {
-    return region.occupied == (isEdge ? 0x777u : 0xfffu);
+    return region.occupied == (isEdge ? edgeReads : smoothReads);
 }
 
 // Of the tile of a texel of level 1.
 bool isOccupied(Region region, ivec2 texel) {
     ivec2 tile = ((region.first >> 1) + texel >> 3) - (region.first >> 4) + 1;
-    return (region.occupied >> (4 * tile.y + tile.x) & 1u) != 0u;
+    return (region.occupied & occupiedBit(tile)) != 0u;
 }
 
 // Where the first of the packed levels begins in the sheet.
