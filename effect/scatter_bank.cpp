@@ -9,6 +9,7 @@
 #include "bank_combine_smooth.spv.h"
 #include "bank_combine_smooth_half.spv.h"
 #include "bank_reduce.spv.h"
+#include "bank_surfaces_blur.spv.h"
 #include "bank_surfaces_combine_edge.spv.h"
 #include "bank_surfaces_reduce.spv.h"
 
@@ -172,7 +173,8 @@ constexpr Pass withSeconds(Pass pass, const char* file, std::span<const std::uin
     return pass;
 }
 
-constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce", bank_surfaces_reduce_spv), blurPass,
+constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce", bank_surfaces_reduce_spv),
+                                   withSeconds(blurPass, "bank_surfaces_blur", bank_surfaces_blur_spv),
                                    withSeconds(edgePass, "bank_surfaces_combine_edge", bank_surfaces_combine_edge_spv),
                                    smoothPass};
 
@@ -192,12 +194,12 @@ VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
     return sizeof(std::uint32_t) * fineTexelCount(maxExtent);
 }
 
-// Of the levels that keep one, finest first.
+// Of the levels that keep one, finest first; then again of those that are blurred.
 VkDeviceSize bankSecondBytes(VkExtent2D maxExtent) {
     VkDeviceSize texels = 0;
     for (int level = 1; level <= constants::bankSecondLevels; ++level) {
         const VkExtent2D extent = levelExtent(maxExtent, level);
-        texels += VkDeviceSize{extent.width} * extent.height;
+        texels += VkDeviceSize{level > 1 ? 2u : 1u} * extent.width * extent.height;
     }
     return sizeof(uvec4) * texels;
 }

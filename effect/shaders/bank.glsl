@@ -26,7 +26,9 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) 
     uint quadAreas[]; // as level 1 lies: packAreas of the four pixels
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) BANK_ACCESS buffer BankSeconds {
-    uvec4 secondTexels[]; // levels 1 … secondLevels, as rawTexels: only where a texel has a second surface (secondBit)
+    // Levels 1 … secondLevels, as rawTexels: only where a texel has a second surface (secondBit). Then, from level 2 on
+    // (blurredSecondIndex), the same surfaces blurred: light and mass as in blurredLights, depth.
+    uvec4 secondTexels[];
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankTiles, std430) BANK_ACCESS buffer BankTiles {
     BankDispatch dispatches[2]; // of the combination: smooth regions, edge regions
@@ -192,6 +194,11 @@ int blurredIndex(int index) {
     return index - parameters.bankLevels[2].x;
 }
 
+// Of the same texel's second surface, blurred.
+int blurredSecondIndex(int index) {
+    return parameters.bankLevels[secondLevels + 1].x + blurredIndex(index);
+}
+
 // Where a thread is in a block of a power of two columns, two rows at a time, so that four threads that follow one another are
 // 2x2: images lie in memory so, and are fetched and stored faster.
 ivec2 quadOrder(int thread, int columns) {
@@ -280,7 +287,7 @@ float massOf(float area) {
 
 // Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
 float separationAt(int level, float nearest) {
-    return (secondLevels > 0 ? bankSecondSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
+    return (keepsSeconds(level) ? bankSecondSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
 }
 
 // Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.
@@ -366,23 +373,48 @@ struct Surfaces {
     RawTexel second;
 };
 
-RawTexel joinTexels(RawTexel a, RawTexel b) {
-    float mass = a.mass + b.mass;
-    float depth = mass > 0.0 ? (a.mass * a.depth + b.mass * b.depth) / mass : 0.0;
-    return RawTexel(a.light + b.light, a.area + b.area, mass, depth, a.mass >= b.mass ? a.material : b.material,
-                    a.dropped || b.dropped);
+// Nearest and farthest depth of what they are already, and of one more, 0 = none.
+vec2 includeDepth(vec2 range, float depth) {
+    return vec2(depth > 0.0 ? min(range.x, depth) : range.x, max(range.y, depth));
 }
 
-// The next level's texel from four texels and their second surfaces.
-Surfaces reduceSurfaces(RawTexel firsts[4], RawTexel seconds[4], int level) {
-    vec2 range = depthRange(seconds, depthRange(firsts, noRange));
-    if (range.y - range.x <= separationAt(level, range.x)) {
-        RawTexel first = joinTexels(mergeTexels(firsts, bvec4(true)), mergeTexels(seconds, bvec4(true)));
-        return Surfaces(first, emptyTexel());
-    }
-    bvec4 nearFirsts = nearerHalf(firsts, range);
-    bvec4 nearSeconds = nearerHalf(seconds, range);
-    RawTexel near = joinTexels(mergeTexels(firsts, nearFirsts), mergeTexels(seconds, nearSeconds));
-    RawTexel far = joinTexels(mergeTexels(firsts, not(nearFirsts)), mergeTexels(seconds, not(nearSeconds)));
+// Adds a texel of the level below, or its second surface, to the surface it belongs to. `first` is the nearer one, for now.
+void addToNearer(inout Surfaces surfaces, RawTexel texel, vec2 range) {
+    bool isNearer = texel.depth - range.x <= range.y - texel.depth;
+    float share = isNearer ? 0.25 : 0.0;
+    float otherShare = 0.25 - share;
+    surfaces.first.light += share * texel.light;
+    surfaces.first.area += share * texel.area;
+    surfaces.first.mass += share * texel.mass;
+    surfaces.first.depth += share * texel.mass * texel.depth;
+    surfaces.first.dropped = surfaces.first.dropped || (isNearer && texel.dropped);
+    surfaces.second.light += otherShare * texel.light;
+    surfaces.second.area += otherShare * texel.area;
+    surfaces.second.mass += otherShare * texel.mass;
+    surfaces.second.depth += otherShare * texel.mass * texel.depth;
+    surfaces.second.dropped = surfaces.second.dropped || (!isNearer && texel.dropped);
+}
+
+// What `range` is where a level takes all of it for one surface: everything is nearer then.
+vec2 rangeOfSurfaces(vec2 range, int level) {
+    return range.y - range.x <= separationAt(level, range.x) ? vec2(range.x, 2.0 * range.y) : range;
+}
+
+// Of sums of depth times mass their mean; the surface with more mass first.
+Surfaces orderSurfaces(Surfaces sums) {
+    RawTexel near = sums.first;
+    RawTexel far = sums.second;
+    bool areTwo = min(near.mass, far.mass) > 0.0;
+    near.dropped = near.dropped || areTwo;
+    far.dropped = far.dropped || areTwo;
+    near.depth /= max(near.mass, 1e-20);
+    far.depth /= max(far.mass, 1e-20);
     return near.mass >= far.mass ? Surfaces(near, far) : Surfaces(far, near);
+}
+
+// A texel's own words, with a note of whether there is a second surface.
+uvec4 packFirst(Surfaces surfaces) {
+    uvec4 words = packRaw(surfaces.first);
+    words.w |= surfaces.second.mass > 0.0 ? secondBit : 0u;
+    return words;
 }

@@ -19,6 +19,9 @@ const int loadedCount = pitch * (blockSize.y + 2 * reach);
 shared uvec2 lights[loadedCount];
 shared float depths[loadedCount]; // 0 = empty
 shared uint massesAndMaterials[loadedCount];
+// Of their second surfaces light, area and depth, 0 = none.
+shared uvec2 secondLights[secondLevels > 0 ? loadedCount : 1];
+shared float secondDepths[secondLevels > 0 ? loadedCount : 1];
 shared uint rough; // bits of roughness
 
 // A texel's words; those of an empty one outside the level.
@@ -58,12 +61,13 @@ int loadedRows(Block block) {
 const uint anyStep = 1u;
 const uint notFull = 2u;
 const uint anything = 4u;
+const uint anySecond = 8u; // and any that have a second surface
 
 // Of a texel by itself …
 uint roughnessOf(uvec4 words) {
     // The mass, a half; with a sign something was left out.
     return ((words.w & 0xffffu) == fullMass ? 0u : notFull) | ((words.w & droppedBit) != 0u ? anyStep : 0u) |
-           (words.z != 0u ? anything : 0u);
+           (words.z != 0u ? anything : 0u) | (secondLevels > 0 && (words.w & secondBit) != 0u ? anySecond : 0u);
 }
 
 int sharedIndex(ivec2 place) {
@@ -108,6 +112,17 @@ void storeShared(ivec2 place, uvec4 words) {
     massesAndMaterials[index] = words.w;
 }
 
+void storeSharedSecond(ivec2 place, uvec4 words) {
+    int index = sharedIndex(place);
+    secondLights[index] = words.xy;
+    secondDepths[index] = uintBitsToFloat(words.z);
+}
+
+// Of the second surface of a texel of a level that pass A has reduced.
+uvec4 secondWords(int level, ivec2 texel, uvec4 words) {
+    return (words.w & secondBit) != 0u ? secondTexels[texelIndex(level, texel)] : uvec4(0u);
+}
+
 // Of the texels that a block loads, counted row by row.
 ivec2 loadedPlace(int index) {
     int row = int((float(index) + 0.5) / float(pitch));
@@ -127,6 +142,9 @@ void loadBlock(Block block, int thread) {
         ivec2 place = loadedPlace(thread + i * threads);
         if (place.y < loadedRows(block)) {
             storeShared(place, words[i]);
+            if (secondLevels > 0) {
+                storeSharedSecond(place, secondWords(block.level, block.first - reach + place, words[i]));
+            }
             roughness |= roughnessOf(words[i]);
         }
     }
@@ -134,9 +152,13 @@ void loadBlock(Block block, int thread) {
 }
 
 // Of the texels around a block only those inside it are this workgroup's to store.
-void storeOwn(Block block, ivec2 texel, uvec4 words) {
+bool isOwn(Block block, ivec2 texel) {
     ivec2 last = min(block.first + ivec2(blockSize.x, block.rows), levelExtent(block.level));
-    if (all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last))) {
+    return all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last));
+}
+
+void storeOwn(Block block, ivec2 texel, uvec4 words) {
+    if (isOwn(block, texel)) {
         rawTexels[texelIndex(block.level, texel)] = words;
     }
 }
@@ -170,6 +192,48 @@ void loadCoarseBlock(Block block, int thread) {
         uvec4 words = inside ? packRaw(coarseTexel(block.level, texel)) : uvec4(0u);
         storeShared(place, words);
         storeOwn(block, texel, words);
+        noteRoughness(roughnessOf(words));
+    }
+}
+
+// A texel of the level after pass A's with both surfaces. The coarsest level is made of first ones alone.
+Surfaces reducedSurfaces(int level, ivec2 texel) {
+    uvec4 firsts[4];
+    uvec4 seconds[4];
+    vec2 range = noRange;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 child = 2 * texel + ivec2(i & 1, i >> 1);
+        firsts[i] = rawWords(level - 1, child);
+        seconds[i] = secondWords(level - 1, child, firsts[i]);
+        range = includeDepth(includeDepth(range, uintBitsToFloat(firsts[i].z)), uintBitsToFloat(seconds[i].z));
+    }
+    range = rangeOfSurfaces(range, level);
+    Surfaces surfaces = Surfaces(emptyTexel(), emptyTexel());
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        addToNearer(surfaces, unpackRaw(firsts[i]), range);
+        addToNearer(surfaces, unpackRaw(seconds[i]), range);
+    }
+    return orderSurfaces(surfaces);
+}
+
+void loadSecondsBlock(Block block, int thread) {
+    ivec2 extent = levelExtent(block.level);
+    for (int index = thread; index < pitch * loadedRows(block); index += threads) {
+        ivec2 place = loadedPlace(index);
+        ivec2 texel = block.first - reach + place;
+        uvec4 words = uvec4(0u);
+        uvec4 second = uvec4(0u);
+        if (texel == clamp(texel, ivec2(0), extent - 1)) {
+            Surfaces surfaces = reducedSurfaces(block.level, texel);
+            words = packFirst(surfaces);
+            second = packRaw(surfaces.second);
+        }
+        storeShared(place, words);
+        storeSharedSecond(place, second);
+        storeOwn(block, texel, words);
+        if ((words.w & secondBit) != 0u && isOwn(block, texel)) {
+            secondTexels[texelIndex(block.level, texel)] = second;
+        }
         noteRoughness(roughnessOf(words));
     }
 }
@@ -225,20 +289,32 @@ void addTap(inout vec4 sum, int index, BlurredTexel surface, float kernel, float
     sum += weight * vec4(tap.rgb, 1.0);
 }
 
+// The same of a texel's second surface.
+void addSecondTap(inout vec4 sum, int index, float depth, float kernel, float scale) {
+    vec4 tap = vec4(unpackHalf2x16(secondLights[index].x), unpackHalf2x16(secondLights[index].y));
+    float weight = depthWeight(secondDepths[index] - depth, scale) * (kernel * tap.w);
+    sum += weight * vec4(tap.rgb, 1.0);
+}
+
 // The binomial's weights from the middle on.
 const float kernelTaps[3] = float[](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
 
-// Blurs a texel, whatever is around it.
-BlurredTexel blurTexel(int level, int center) {
-    BlurredTexel surface = findSurface(level, center);
-    float scale = depthScale(texelWidth(level, surface.depth), bankBlurDepthVariance);
+const float blurDepthVariance = secondLevels > 0 ? bankSecondBlurDepthVariance : bankBlurDepthVariance;
+
+// Blurs along a surface, whatever is around the texel.
+BlurredTexel blurAlong(BlurredTexel surface, int level, int center) {
+    float scale = depthScale(texelWidth(level, surface.depth), blurDepthVariance);
+    bool seconds = secondLevels > 0 && (rough & anySecond) != 0u;
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
             addTap(sum, center + x + y * pitch, surface, kernelTaps[abs(x)] * kernelTaps[abs(y)], scale);
         }
+        [[unroll]] for (int x = -2; seconds && x <= 2; ++x) {
+            addSecondTap(sum, center + x + y * pitch, surface.depth, kernelTaps[abs(x)] * kernelTaps[abs(y)], scale);
+        }
     }
-    surface.mass = massOf(sum.w);
+    surface.mass = unpackHalf2x16(packHalf2x16(vec2(massOf(sum.w), 0.0))).x; // as it is stored
     surface.light = sum.rgb * (surface.mass / max(sum.w, bankLeastWeight));
     return surface;
 }
@@ -250,7 +326,7 @@ struct PlainCenter {
 };
 
 PlainCenter plainCenter(int level, int index) {
-    return PlainCenter(depths[index], depthScale(texelWidth(level, depths[index]), bankBlurDepthVariance));
+    return PlainCenter(depths[index], depthScale(texelWidth(level, depths[index]), blurDepthVariance));
 }
 
 // Fourth roots of the binomial's weights.
@@ -297,6 +373,31 @@ void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     }
 }
 
+// A texel's second surface. With its depth, so that the combination finds all of it in one place.
+void storeSecond(Block block, ivec2 local, BlurredTexel blurred) {
+    ivec2 texel = block.first + local;
+    if (all(lessThan(texel, levelExtent(block.level)))) {
+        uvec2 light = packBlurred(blurred);
+        secondTexels[blurredSecondIndex(texelIndex(block.level, texel))] =
+            uvec4(light, floatBitsToUint(blurred.depth), 0u);
+    }
+}
+
+// Both surfaces of a texel in whose block something is missing or away.
+void blurSurfaces(Block block, ivec2 local, int center) {
+    BlurredTexel surface = findSurface(block.level, center);
+    int count = (rough & anySecond) != 0u && secondDepths[center] > 0.0 ? 2 : 1;
+    [[dont_unroll]] for (int i = 0; i < count; ++i) {
+        BlurredTexel blurred = blurAlong(surface, block.level, center);
+        if (i == 0) {
+            storeBlurred(block, local, blurred);
+        } else {
+            storeSecond(block, local, blurred);
+        }
+        surface = BlurredTexel(vec3(0.0), 0.0, secondDepths[center], 0u, true, true);
+    }
+}
+
 #include "bank_lists.glsl"
 
 void main() {
@@ -313,6 +414,8 @@ void main() {
     barrier();
     if (block.level <= rawLevels) {
         loadBlock(block, thread);
+    } else if (secondLevels > 0 && block.level <= secondLevels) {
+        loadSecondsBlock(block, thread);
     } else {
         loadCoarseBlock(block, thread);
     }
@@ -332,5 +435,11 @@ void main() {
     }
     int center = sharedIndex(local + reach);
     bool isPlain = !separateMaterials && rough == anything;
-    storeBlurred(block, local, isPlain ? blurPlain(block.level, center) : blurTexel(block.level, center));
+    if (secondLevels > 0 && !isPlain) {
+        blurSurfaces(block, local, center);
+        return;
+    }
+    storeBlurred(block, local, isPlain || secondLevels > 0
+                                   ? blurPlain(block.level, center)
+                                   : blurAlong(findSurface(block.level, center), block.level, center));
 }

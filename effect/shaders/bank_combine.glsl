@@ -102,12 +102,14 @@ vec4 levelLight(uvec2 words) {
     return vec4(light.rgb, abs(light.a));
 }
 
+const float levelAwayVariance = isEdge && secondLevels > 0 ? bankSecondAwayVariance : bankLevelAwayVariance;
+
 // What a level's weighted taps are multiplied by: one over their total weight, and a share of the pixel. On a slope the taps'
 // weighted mean depth is the pixel's; where it is away from there, they stand on another surface, and the share falls.
 // `away`: weighted sum of how far the taps are behind the pixel, mm. `scale`: levelScale.
 float levelShare(float total, float away, float scale) {
     float normalization = 1.0 / max(total, bankLeastWeight);
-    return normalization * depthWeight(away * normalization, scale * (bankLevelDepthVariance / bankLevelAwayVariance));
+    return normalization * depthWeight(away * normalization, scale * (bankLevelDepthVariance / levelAwayVariance));
 }
 
 // Writes those of the thread's pixels that are members of a group, which share a material. `local`: the first. The light

@@ -6,15 +6,15 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// With second surfaces, coarse levels that are not plain are weighed texel by texel as reduced, not as blurred.
-const bool readsReduced = secondLevels > 0;
-
 // Of level 1's texels as reduced, beside fineLights. An empty one has no area.
 shared float fineDepths[fineCount];
 shared uint fineMaterials[separateMaterials ? fineCount : 1];
 // Of their second surfaces the words of light and area, and depth; 0 where there is none.
 shared uvec2 fineSecondLights[secondLevels > 0 ? fineCount : 1];
 shared float fineSecondDepths[secondLevels > 0 ? fineCount : 1];
+// Of the coarser levels' second surfaces, beside levelLights.
+shared uvec2 levelSecondLights[secondLevels > 0 ? coarseRoom : 1];
+shared float levelSecondDepths[secondLevels > 0 ? coarseRoom : 1];
 
 void storeFine(int place, int index, uvec4 words) {
     fineLights[place] = words.xy;
@@ -29,6 +29,15 @@ void storeFine(int place, int index, uvec4 words) {
             fineSecondLights[place] = second.xy;
             fineSecondDepths[place] = uintBitsToFloat(second.z);
         }
+    }
+}
+
+void storeLevelSecond(Coarse coarse, uvec2 surface) {
+    levelSecondDepths[coarse.place] = farAway;
+    if ((surface.y & secondBit) != 0u) {
+        uvec4 second = secondTexels[blurredSecondIndex(coarse.index)];
+        levelSecondLights[coarse.place] = second.xy;
+        levelSecondDepths[coarse.place] = uintBitsToFloat(second.z);
     }
 }
 
@@ -64,8 +73,9 @@ uint loadRegion(Region region, int thread, ivec2 local) {
     }
     if (isCoarse && thread % (threads / 2) < coarseCount) {
         storeLevelTexel(coarse, light);
-        if (!readsReduced) {
-            storeSurface(coarse, surface, light);
+        storeSurface(coarse, surface, light);
+        if (secondLevels > 0) {
+            storeLevelSecond(coarse, surface);
         }
     }
     if (thread < ringCount) {
@@ -177,46 +187,19 @@ vec4 weightedLevel(int level, Corner corner, float depth, uint material, out flo
         if (separateMaterials) {
             bilinear = exchanges(levelMaterials[place], material) ? bilinear : 0.0;
         }
-        addTap(taps, bilinear, levelLights[place], levelDepths[place] - depth, scale);
+        float distance = levelDepths[place] - depth;
+        uvec2 light = levelLights[place];
+        if (secondLevels > 0) { // whichever surface is closer
+            float other = levelSecondDepths[place] - depth;
+            light = abs(other) < abs(distance) ? levelSecondLights[place] : light;
+            distance = abs(other) < abs(distance) ? other : distance;
+        }
+        addTap(taps, bilinear, light, distance, scale);
     }
     share = levelShare(taps.total, taps.away, scale);
     vec4 seen = taps.light * share;
     share *= taps.total;
     return seen;
-}
-
-// Along an axis the 5x5 binomial and the bilinear reading of it are one kernel of six texels, which changes with where the
-// pixel lies between the middle two: its weights at the first, and by how much they change towards the second.
-const float reducedTaps[6] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0, 0.0);
-const float reducedChanges[6] = float[](-1.0 / 16.0, -3.0 / 16.0, -2.0 / 16.0, 2.0 / 16.0, 3.0 / 16.0, 1.0 / 16.0);
-
-// A level from its texels as reduced, each weighed by the pixel's own depth.
-vec4 reducedLevel(int level, ivec2 pixel, vec2 fraction, float depth) {
-    float scale = depthScale(texelWidth(level, depth), bankReducedDepthVariance);
-    ivec2 first = (pixel - (1 << (level - 1)) >> level) - 2;
-    ivec2 last = levelExtent(level) - 1;
-    int columns[6];
-    float tapsX[6];
-    [[unroll]] for (int x = 0; x < 6; ++x) {
-        columns[x] = clamp(first.x + x, 0, last.x);
-        tapsX[x] = columns[x] == first.x + x ? fma(fraction.x, reducedChanges[x], reducedTaps[x]) : 0.0;
-    }
-    vec4 lightAndArea = vec4(0.0);
-    [[dont_unroll]] for (int y = max(0, -first.y); y < min(6, last.y - first.y + 1); ++y) {
-        int row = texelIndex(level, ivec2(0, first.y + y));
-        vec4 rowLightAndArea = vec4(0.0);
-        [[unroll]] for (int x = 0; x < 6; ++x) {
-            int index = row + columns[x];
-            uvec4 words = rawTexels[index];
-            addReducedTap(rowLightAndArea, words.xy, tapsX[x], uintBitsToFloat(words.z) - depth, scale);
-            if (keepsSeconds(level) && (words.w & secondBit) != 0u) {
-                uvec4 second = secondTexels[index];
-                addReducedTap(rowLightAndArea, second.xy, tapsX[x], uintBitsToFloat(second.z) - depth, scale);
-            }
-        }
-        lightAndArea += fma(fraction.y, reducedChanges[y], reducedTaps[y]) * rowLightAndArea;
-    }
-    return surfaceSeen(lightAndArea);
 }
 
 // A level with bilinear weights.
@@ -241,8 +224,6 @@ vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
         float share = 1.0;
         if ((rough >> level & 1u) == 0u) {
             seen = plainLevel(corner);
-        } else if (readsReduced) {
-            seen = reducedLevel(level, region + local, corner.fraction, depth);
         } else {
             seen = weightedLevel(level, corner, depth, material, share);
         }

@@ -16,9 +16,9 @@ const int bankBinCount = 113;
 // keeps the one with more light-receiving area. With 3: −0.1 dB over forty seeds, −0.3 to −1.2 dB on models at 1920x1080, −0.3 to
 // +0.6 dB at 320x180. With 5: thin bars up to −1 dB.
 const float bankSurfaceSeparation = 4.0f;
-// With second surfaces, texels of the levels up to this one, the last of pass A, keep the other surface beside that one: what
-// lies closer to the nearest depth is one, the rest the other.
-const int bankSecondLevels = 4;
+// With second surfaces, texels of the levels up to this one keep the other surface beside that one: what lies closer to the
+// nearest depth is one, the rest the other. With 4: −0.8 and −1.0 dB on the Stanford dragon's front and side at 1920x1080.
+const int bankSecondLevels = 5;
 // Their separation: depth weights are so narrow there that a texel on a steep surface had better be two. With 3 from level 2 on:
 // −0.3 to −1 dB on the Stanford dragon. With less, tiles of plain blocks could not be reduced as whole.
 const float bankSecondSeparation = 2.0f;
@@ -36,9 +36,11 @@ const float bankLevelDepthVariance = 5.0f;
 // g(away² / bankLevelAwayVariance). With 1.5: −1.4 dB on a sheet seen through another's holes, −0.1 on the Stanford dragon's
 // front; with 3: −0.2 dB on its side.
 const float bankLevelAwayVariance = 2.2f;
-// With second surfaces, levels from 2 on in edge regions, whose texels are weighed by a pixel's own depth: as for bankBlur…;
-// twice the kernel's variance, so that it is as wide in depth as across.
-const float bankReducedDepthVariance = 2.5f;
+// The first and the last of these with second surfaces, of which a pixel reads the one that is closer: they may be wider then.
+// Blur with 1.4: −0.4 to −0.7 dB on the Stanford dragon's front; with 2: −0.2 to −0.7 dB on its side and the gallery's logo.
+const float bankSecondBlurDepthVariance = 1.7f;
+// With 2.2: −0.1 dB on the dragon's front; with 5: −0.2 dB on its side.
+const float bankSecondAwayVariance = 3.0f;
 // Combination, full-resolution 3x3 and, in edge regions, level 1: q = Δz² / (bankPixelDepthVariance · t²). For level 1 1.4 is
 // up to 1.5 dB worse on the models, and 3 up to 1.8 dB worse on one of them.
 const float bankPixelDepthVariance = 2.0f;

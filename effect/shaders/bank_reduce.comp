@@ -35,17 +35,17 @@ void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint qu
         texelMaterials[place] = first.material;
     }
     int index = texelIndex(level, texel);
-    uvec4 packed = packRaw(first);
-    packed.w = level == 1 ? quad : packed.w;
-    if (keepsSeconds(level)) {
+    uvec4 words = packRaw(first);
+    words.w = level == 1 ? quad : words.w;
+    if (secondLevels > 0) {
         uvec4 second = packRaw(surfaces.second);
         seconds[place] = second;
         if (surfaces.second.mass > 0.0) {
-            packed.w |= secondBit;
+            words.w |= secondBit;
             secondTexels[index] = second;
         }
     }
-    rawTexels[index] = packed;
+    rawTexels[index] = words;
 }
 
 RawTexel texelAt(int place) {
@@ -55,24 +55,52 @@ RawTexel texelAt(int place) {
                     separateMaterials ? texelMaterials[place] : 0u, depthAndMass.y < 0.0);
 }
 
+// The four texels of the level below in shared memory: the first, and how far it is to the next.
+struct Children {
+    int first;
+    int spacing;
+};
+
+int childPlace(Children children, int i) {
+    return children.first + ((i & 1) + (i >> 1) * side) * children.spacing;
+}
+
+Surfaces reduceOne(Children children, int level) {
+    RawTexel texels[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        texels[i] = texelAt(childPlace(children, i));
+    }
+    return Surfaces(reduceTexels(texels, level), emptyTexel());
+}
+
+// With their second surfaces.
+Surfaces reduceBoth(Children children, int level) {
+    vec2 range = noRange;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int place = childPlace(children, i);
+        range = includeDepth(range, depthsAndMasses[place].x);
+        range = includeDepth(range, uintBitsToFloat(seconds[place].z));
+    }
+    range = rangeOfSurfaces(range, level);
+    Surfaces surfaces = Surfaces(emptyTexel(), emptyTexel());
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        int place = childPlace(children, i);
+        addToNearer(surfaces, texelAt(place), range);
+        addToNearer(surfaces, unpackRaw(seconds[place]), range);
+    }
+    return orderSurfaces(surfaces);
+}
+
 void reduceLevel(int level, ivec2 tile, int thread) {
     int shift = rawLevels - level; // of the level's texels a side in a tile
     if (thread >> 2 * shift != 0) {
         return;
     }
     ivec2 texel = ivec2(thread & (1 << shift) - 1, thread >> shift);
-    int spacing = 1 << (level - 2); // between the children, in texels of level 1
-    int first = (texel.y * side + texel.x) * 2 * spacing;
-    RawTexel children[4];
-    RawTexel others[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        int place = first + ((i & 1) + (i >> 1) * side) * spacing;
-        children[i] = texelAt(place);
-        others[i] = keepsSeconds(level) ? unpackRaw(seconds[place]) : emptyTexel();
-    }
-    Surfaces surfaces = keepsSeconds(level) ? reduceSurfaces(children, others, level)
-                                                  : Surfaces(reduceTexels(children, level), emptyTexel());
-    storeSurfaces(surfaces, first, level, (tile << shift) + texel, 0u);
+    int spacing = 1 << (level - 2);
+    Children children = Children((texel.y * side + texel.x) * 2 * spacing, spacing);
+    Surfaces surfaces = secondLevels > 0 ? reduceBoth(children, level) : reduceOne(children, level);
+    storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, 0u);
 }
 
 // Sums of a whole tile's texels, which all are full.

@@ -29,6 +29,13 @@ struct Block {
         }
     }
 
+    // The 2x2 of a level that are a texel of the next.
+    void addFour(const TwinLevel<RawTexel>& level, int x, int y) {
+        for (int child = 0; child < 4; ++child) {
+            add(level.at(2 * x + (child & 1), 2 * y + (child >> 1)));
+        }
+    }
+
     template <typename Keep> RawTexel sum(Keep keep) const {
         RawTexel result;
         double depth = 0;
@@ -136,42 +143,48 @@ bool BankTwin::hasSeconds(int level) const {
     return settings_.secondSurfaces && level >= 1 && level <= constants::bankSecondLevels;
 }
 
-void BankTwin::reduceLevel(int level) {
-    const TwinLevel<RawTexel>& from = raw_[level - 1];
-    TwinLevel<RawTexel>& to = raw_[level];
-    TwinLevel<RawTexel>& seconds = rawSeconds_[level];
+// The next level's texels, of one surface each.
+TwinLevel<RawTexel> BankTwin::reduced(const TwinLevel<RawTexel>& from, int level) const {
+    TwinLevel<RawTexel> to;
     // Whole tiles: what lies outside the image is empty.
     to.width = level == 1 ? tilesX_ * tileSize / 2 : (from.width + 1) / 2;
     to.height = level == 1 ? tilesY_ * tileSize / 2 : (from.height + 1) / 2;
-    seconds.width = to.width;
-    seconds.height = to.height;
-    const double separation = hasSeconds(level) ? constants::bankSecondSeparation : constants::bankSurfaceSeparation;
     for (int i = 0; i < to.width * to.height; ++i) {
         Block block;
-        for (int child = 0; child < 4; ++child) {
-            const int x = 2 * (i % to.width) + (child & 1);
-            const int y = 2 * (i / to.width) + (child >> 1);
-            block.add(from.at(x, y));
-            if (hasSeconds(level - 1) && hasSeconds(level)) {
-                block.add(rawSeconds_[level - 1].at(x, y));
-            }
+        block.addFour(from, i % to.width, i / to.width);
+        const double limit = constants::bankSurfaceSeparation * texelWidth(level, block.nearest);
+        const RawTexel front = block.sum([&](const RawTexel& t) { return t.depth - block.nearest <= limit; });
+        const RawTexel back = block.sum([&](const RawTexel& t) { return block.farthest - t.depth <= limit; });
+        to.texels.push_back(front.mass >= back.mass ? front : back);
+    }
+    return to;
+}
+
+void BankTwin::reduceLevel(int level) {
+    TwinLevel<RawTexel>& to = raw_[level];
+    // The coarsest level is made of first surfaces alone.
+    const bool isLast = level == constants::bankSecondLevels + 1;
+    to = reduced(settings_.secondSurfaces && isLast ? reduced(raw_[level - 2], level - 1) : raw_[level - 1], level);
+    TwinLevel<RawTexel>& seconds = rawSeconds_[level];
+    seconds = to;
+    std::fill(seconds.texels.begin(), seconds.texels.end(), RawTexel{});
+    for (std::size_t i = 0; hasSeconds(level) && i < to.texels.size(); ++i) {
+        Block block;
+        const int x = static_cast<int>(i) % to.width;
+        const int y = static_cast<int>(i) / to.width;
+        block.addFour(raw_[level - 1], x, y);
+        if (hasSeconds(level - 1)) {
+            block.addFour(rawSeconds_[level - 1], x, y);
         }
-        const double limit = separation * texelWidth(level, block.nearest);
-        RawTexel texel = block.sum([](const RawTexel&) { return true; });
-        RawTexel second;
-        if (block.farthest - block.nearest > limit && hasSeconds(level)) {
+        RawTexel& texel = to.texels[i];
+        texel = block.sum([](const RawTexel&) { return true; });
+        if (block.farthest - block.nearest > constants::bankSecondSeparation * texelWidth(level, block.nearest)) {
             texel = block.sum([&](const RawTexel& t) { return block.isNear(t); });
-            second = block.sum([&](const RawTexel& t) { return !block.isNear(t); });
-            if (texel.mass < second.mass) {
-                std::swap(texel, second);
-            }
-        } else if (block.farthest - block.nearest > limit) {
-            const RawTexel front = block.sum([&](const RawTexel& t) { return t.depth - block.nearest <= limit; });
-            const RawTexel back = block.sum([&](const RawTexel& t) { return block.farthest - t.depth <= limit; });
-            texel = front.mass >= back.mass ? front : back;
+            seconds.texels[i] = block.sum([&](const RawTexel& t) { return !block.isNear(t); });
         }
-        to.texels.push_back(texel);
-        seconds.texels.push_back(second);
+        if (texel.mass < seconds.texels[i].mass) {
+            std::swap(texel, seconds.texels[i]);
+        }
     }
 }
 
@@ -180,6 +193,7 @@ void BankTwin::blurLevel(int level) {
     to.width = raw_[level].width;
     to.height = raw_[level].height;
     to.texels.resize(raw_[level].texels.size());
+    blurredSeconds_[level] = to;
     const int rows = level == bankLevels ? coarsestRows : blockHeight;
     for (int y = 0; y < to.height; y += rows) {
         for (int x = 0; x < to.width; x += blockWidth) {
@@ -223,6 +237,11 @@ void BankTwin::blurBlock(int level, int firstX, int firstY, int rows) {
                     value /= texel.mass;
                 }
                 texel.mass = 1;
+            }
+            const RawTexel* second = rawSeconds_[level].at(x, y);
+            if (second->mass > 0) {
+                blurredSeconds_[level].texels[static_cast<std::size_t>(y) * to.width + x] =
+                    blurAt(level, x, y, second->depth);
             }
         }
     }
@@ -274,10 +293,13 @@ bool BankTwin::isPlain(int level, int x, int y, double depth) const {
 // A texel's kernel where it stands on a surface at this depth.
 BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
     const double width = texelWidth(level, depth);
+    const double variance =
+        settings_.secondSurfaces ? constants::bankSecondBlurDepthVariance : constants::bankBlurDepthVariance;
     SurfaceSum sum;
-    for (int i = 0; i < 25; ++i) {
-        sum.add(raw_[level].at(x + i % 5 - 2, y + i / 5 - 2), binomial[i % 5] * binomial[i / 5], depth,
-                constants::bankBlurDepthVariance * width * width);
+    for (int i = 0; i < 50; ++i) {
+        const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
+        sum.add(raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth,
+                variance * width * width);
     }
     return {sum.lightOfMass(), sum.mass(), depth, false};
 }

@@ -66,6 +66,7 @@ private:
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
     bool hasSeconds(int level) const;
+    TwinLevel<RawTexel> reduced(const TwinLevel<RawTexel>& from, int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
     bool isWhole(int level, int firstX, int firstY, int rows) const;
@@ -73,6 +74,7 @@ private:
     bool isStep(int level, int x, int y, int besideX, int besideY) const;
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
+    const BlurredTexel& nearerSurface(int level, int x, int y, double depth) const;
     bool isRough(int blockX, int blockY) const;
     bool isEdgePart(int firstX, int firstY) const;
     void combineRegion(int firstX, int firstY);
@@ -90,7 +92,6 @@ private:
     Seen pixelsOnSlope(int x, int y) const;
     Seen plainLevel(int level, int x, int y) const;
     Seen levelSeen(int level, int x, int y, bool smooth) const;
-    Seen reducedSeen(int level, int x, int y) const;
     double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
@@ -102,6 +103,7 @@ private:
     std::array<TwinLevel<RawTexel>, bankLevels + 1> raw_;        ///< level 0 is the image
     std::array<TwinLevel<RawTexel>, bankLevels + 1> rawSeconds_; ///< of the levels that keep a second surface
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurred_;
+    std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurredSeconds_; ///< of the same levels; no depth: none
     int tilesX_ = 0;
     int tilesY_ = 0;
     std::vector<Rgb> result_;

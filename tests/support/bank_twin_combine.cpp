@@ -105,8 +105,7 @@ BankTwin::Seen BankTwin::seenBy(int kernel, int x, int y, const Region& region) 
         if ((region.roughLevels >> (kernel - 1) & 1) == 0) {
             return plainLevel(kernel - 1, x, y);
         }
-        return settings_.secondSurfaces && !smooth ? reducedSeen(kernel - 1, x, y)
-                                                   : levelSeen(kernel - 1, x, y, smooth);
+        return levelSeen(kernel - 1, x, y, smooth);
     }
 }
 
@@ -231,31 +230,6 @@ BankTwin::Seen BankTwin::pixels(int x, int y) const {
     return {surface.lightOfMass(), surface.mass()};
 }
 
-// A coarse level as a pixel of an edge region sees it where texels keep two surfaces: as reduced, by its own depth.
-BankTwin::Seen BankTwin::reducedSeen(int level, int x, int y) const {
-    const double depth = raw_[0].at(x, y)->depth;
-    const double width = texelWidth(level, depth);
-    const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
-    // The binomial, read bilinearly, of six texels along an axis.
-    const auto taps = [](double fraction) {
-        std::array<double, 6> result{};
-        for (int i = 0; i < 5; ++i) {
-            result[i] += (1 - fraction) * binomial[i];
-            result[i + 1] += fraction * binomial[i];
-        }
-        return result;
-    };
-    const std::array<double, 6> tapsX = taps(corner.fractionX);
-    const std::array<double, 6> tapsY = taps(corner.fractionY);
-    SurfaceSum surface;
-    for (int i = 0; i < 72; ++i) {
-        const TwinLevel<RawTexel>& raw = i < 36 ? raw_[level] : rawSeconds_[level];
-        surface.add(raw.at(corner.x - 2 + i % 6, corner.y - 2 + i / 6 % 6), tapsX[i % 6] * tapsY[i / 6 % 6], depth,
-                    constants::bankReducedDepthVariance * width * width);
-    }
-    return {surface.lightOfMass(), surface.mass()};
-}
-
 // A level read with bilinear weights alone.
 BankTwin::Seen BankTwin::plainLevel(int level, int x, int y) const {
     const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
@@ -271,6 +245,13 @@ BankTwin::Seen BankTwin::plainLevel(int level, int x, int y) const {
     return seen;
 }
 
+// Of a blurred texel's two surfaces the one that is closer to a depth.
+const BlurredTexel& BankTwin::nearerSurface(int level, int x, int y, double depth) const {
+    const BlurredTexel& first = blurred_[level].nearest(x, y);
+    const BlurredTexel& second = blurredSeconds_[level].nearest(x, y);
+    return second.depth > 0 && std::abs(second.depth - depth) < std::abs(first.depth - depth) ? second : first;
+}
+
 BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     const double depth = depthOf(x, y, smooth);
     const double width = texelWidth(level, depth);
@@ -281,7 +262,10 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     double total = 0;
     double away = 0; // of the texels' surface from the pixel's, mm
     for (int i = 0; i < 4; ++i) {
-        const BlurredTexel& tap = blurred_[level].nearest(corner.x + i % 2, corner.y + i / 2);
+        const int tapX = corner.x + i % 2;
+        const int tapY = corner.y + i / 2;
+        const BlurredTexel& tap =
+            smooth ? blurred_[level].nearest(tapX, tapY) : nearerSurface(level, tapX, tapY, depth);
         const double difference = tap.depth - depth;
         const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
         const double depthWeight = tap.depth > 0 ? falloff(q) : 0;
@@ -296,7 +280,9 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
     }
     const double normalization = 1 / std::max<double>(total, constants::bankLeastWeight);
     const double distance = away * normalization / width;
-    const double share = normalization * falloff(distance * distance / constants::bankLevelAwayVariance);
+    const double variance =
+        settings_.secondSurfaces && !smooth ? constants::bankSecondAwayVariance : constants::bankLevelAwayVariance;
+    const double share = normalization * falloff(distance * distance / variance);
     for (double& value : seen.light) {
         value *= share;
     }
