@@ -100,7 +100,7 @@ typedef enum NacreTechnique {
                                         them apart; exchange groups are not used; a surface's width on screen does not
                                         follow the material's millimetres */
     NACRE_TECHNIQUE_BANK_SURFACES = 6, /**< NACRE_TECHNIQUE_BANK that keeps two surfaces where one is in front of another:
-                                            more accurate at folds and thin parts, and up to 70 % slower there */
+                                            more accurate at folds and thin parts, and slower there */
     NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
 } NacreTechnique;
 
