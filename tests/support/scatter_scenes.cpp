@@ -78,6 +78,10 @@ static_assert(std::size(kinds) == std::size(tunedSceneKinds) + std::size(heldOut
 
 } // namespace
 
+const char* sceneKindName(SceneKind kind) {
+    return kinds[static_cast<std::size_t>(kind)].name;
+}
+
 std::vector<Material> testMaterials() {
     Material skin;
     skin.name = "skin";

@@ -30,6 +30,7 @@ struct ScatterScene {
 };
 
 enum class SceneKind { Plane, Spheres, Tilt, Thin, Floor, Terrain, Boxes, Sheets, Foliage, Hair };
+const char* sceneKindName(SceneKind kind);
 /// What the bank's constants were chosen on.
 inline constexpr SceneKind tunedSceneKinds[] = {SceneKind::Plane, SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin};
 /// What they were not chosen on.

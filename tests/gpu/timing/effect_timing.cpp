@@ -1,19 +1,20 @@
 // effect_timing: GPU times of the scatter techniques and of transmit on synthetic scenes, beside a copy pass, as a
 // table and CSV.
-//   effect_timing [--suite scenes|targets|footprint|layers|materials|transmit|all] [--size WxH] [--csv FILE]
-//                 [--rounds N] [--shader-float16 on|off]
-// Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 20 steady repeats.
+// Times are GPU timestamps in microseconds: medians [5 %, 95 %] over rounds × 20 steady repeats. --help lists the
+// options.
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/gpu/timing/copy_pass.hpp"
 #include "tests/gpu/timing/measure.hpp"
 #include "tests/gpu/timing/transmit_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 using namespace nacre;
 using namespace nacre::tests;
@@ -25,10 +26,21 @@ constexpr ScatterFormats smallIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UI
 constexpr ScatterFormats largeIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16_UINT, VK_FORMAT_R32_SFLOAT,
                                   VK_FORMAT_R16G16B16A16_SFLOAT};
 
+constexpr const char* usage = R"(effect_timing: GPU times of the scatter techniques and of transmit, beside a copy pass
+
+  --suite NAME          scenes, targets, footprint, layers, materials, transmit or all (all)
+  --techniques A,B,...  of the suite scenes, each in turn on every scene (bank)
+  --size WIDTHxHEIGHT   px (1920x1080)
+  --rounds N            of 20 steady repeats and 5 lone frames each (12)
+  --shader-float16 X    on or off: half floats where the device has them (on)
+  --csv FILE            where all figures go (effect_timing.csv)
+)";
+
 struct Options {
     std::string suite = "all";
     std::string csv = "effect_timing.csv";
-    VkExtent2D extent{1920, 1080}; // targets are measured at twice that, too
+    VkExtent2D extent{1920, 1080};                                // targets are measured at twice that, too
+    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK}; // of the suite `scenes`
     MeasureSettings measure;
     bool shaderFloat16 = true; // where the device has it
 };
@@ -42,11 +54,9 @@ struct Subject {
     int layers = 6;
     int materials = 4;
     std::string label() const {
-        static const char* const names[] = {"plane", "spheres", "tilt", "thin"};
         char text[128];
         std::snprintf(text, sizeof(text), "%s %ux%u cover %.0f%% footprint %.0f px, %d layers, %d materials",
-                      names[static_cast<int>(kind)], extent.width, extent.height, 100 * coverage, footprint, layers,
-                      materials);
+                      sceneKindName(kind), extent.width, extent.height, 100 * coverage, footprint, layers, materials);
         return text;
     }
 };
@@ -192,13 +202,14 @@ void printSlopes(const char* what, std::span<const Row> rows, double (*parameter
     }
 }
 
-// `bank` alone, on one of each: a minute's answer to a change of its shaders.
+// One of each: a minute's answer to a change of shaders.
 void runScenes(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
-    const std::vector<NacreTechnique> bank{NACRE_TECHNIQUE_BANK};
-    measureSubject(gpu, {.extent = options.extent}, bank, options, rows);
-    measureSubject(gpu, {.extent = options.extent, .footprint = 60, .coverage = 0.25}, bank, options, rows);
+    measureSubject(gpu, {.extent = options.extent}, options.techniques, options, rows);
+    measureSubject(gpu, {.extent = options.extent, .footprint = 60, .coverage = 0.25}, options.techniques, options,
+                   rows);
     for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
-        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, bank, options, rows);
+        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, options.techniques, options,
+                       rows);
     }
 }
 
@@ -287,13 +298,12 @@ void writeCsv(const Options& options, std::span<const Row> rows) {
     std::ofstream file(options.csv);
     file << "scene,width,height,coverage,footprint,layers,materials,technique,samples,steady_median_us,steady_p5_us,"
             "steady_p95_us,single_median_us,single_p5_us,single_p95_us,pass_medians_us\n";
-    static const char* const names[] = {"plane", "spheres", "tilt", "thin"};
     for (const auto& [subject, timing] : rows) {
-        file << names[static_cast<int>(subject.kind)] << ',' << subject.extent.width << ',' << subject.extent.height
-             << ',' << subject.coverage << ',' << subject.footprint << ',' << subject.layers << ',' << subject.materials
-             << ',' << timing.name << ',' << timing.steady.samples << ',' << timing.steady.median << ','
-             << timing.steady.p5 << ',' << timing.steady.p95 << ',' << timing.single.median << ',' << timing.single.p5
-             << ',' << timing.single.p95 << ',';
+        file << sceneKindName(subject.kind) << ',' << subject.extent.width << ',' << subject.extent.height << ','
+             << subject.coverage << ',' << subject.footprint << ',' << subject.layers << ',' << subject.materials << ','
+             << timing.name << ',' << timing.steady.samples << ',' << timing.steady.median << ',' << timing.steady.p5
+             << ',' << timing.steady.p95 << ',' << timing.single.median << ',' << timing.single.p5 << ','
+             << timing.single.p95 << ',';
         for (std::size_t i = 0; i < timing.passes.size(); ++i) {
             file << (i ? ";" : "") << timing.passNames[i] << '=' << timing.passes[i].median;
         }
@@ -304,27 +314,68 @@ void writeCsv(const Options& options, std::span<const Row> rows) {
     }
 }
 
-Options parse(int count, char** arguments) {
-    Options options;
-    for (int i = 1; i < count; ++i) {
-        const std::string name = arguments[i];
-        if (i + 1 == count) {
-            throw std::runtime_error(name + " needs a value");
+std::vector<NacreTechnique> parseTechniques(const std::string& names) {
+    std::vector<NacreTechnique> result;
+    std::istringstream list(names);
+    for (std::string name; std::getline(list, name, ',');) {
+        const std::vector<NacreTechnique> known = realTimeTechniques();
+        const auto technique =
+            std::ranges::find_if(known, [&](NacreTechnique each) { return name == nacreTechniqueString(each); });
+        if (technique == known.end()) {
+            throw std::runtime_error("--techniques has '" + name + "', must be names of real-time techniques");
         }
-        const std::string value = arguments[++i];
+        result.push_back(*technique);
+    }
+    return result;
+}
+
+VkExtent2D parseSize(const std::string& text) {
+    VkExtent2D extent{};
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%5ux%5u%n", &extent.width, &extent.height, &end) != 2 || text[end] != '\0' ||
+        extent.width == 0 || extent.height == 0) {
+        throw std::runtime_error("--size is '" + text + "', must be WIDTHxHEIGHT");
+    }
+    return extent;
+}
+
+std::uint32_t parseRounds(const std::string& text) {
+    const int rounds = std::atoi(text.c_str());
+    if (rounds < 1) {
+        throw std::runtime_error("--rounds is '" + text + "', must be 1 or more");
+    }
+    return static_cast<std::uint32_t>(rounds);
+}
+
+bool parseSwitch(const std::string& name, const std::string& text) {
+    if (text != "on" && text != "off") {
+        throw std::runtime_error(name + " is '" + text + "', must be on or off");
+    }
+    return text == "on";
+}
+
+Options parse(std::span<char*> arguments) {
+    Options options;
+    for (std::size_t i = 1; i < arguments.size(); i += 2) {
+        const std::string name = arguments[i];
+        const std::string value = i + 1 < arguments.size() ? arguments[i + 1] : "";
+        if (value.empty()) {
+            throw std::runtime_error(name + " needs a value; --help lists the options");
+        }
         if (name == "--suite") {
             options.suite = value;
+        } else if (name == "--techniques") {
+            options.techniques = parseTechniques(value);
         } else if (name == "--csv") {
             options.csv = value;
-        } else if (name == "--rounds" && std::atoi(value.c_str()) > 0) {
-            options.measure.rounds = static_cast<std::uint32_t>(std::atoi(value.c_str()));
-        } else if (name == "--shader-float16" && (value == "on" || value == "off")) {
-            options.shaderFloat16 = value == "on";
-        } else if (name == "--size" &&
-                   std::sscanf(value.c_str(), "%ux%u", &options.extent.width, &options.extent.height) == 2) {
-            continue;
+        } else if (name == "--rounds") {
+            options.measure.rounds = parseRounds(value);
+        } else if (name == "--shader-float16") {
+            options.shaderFloat16 = parseSwitch(name, value);
+        } else if (name == "--size") {
+            options.extent = parseSize(value);
         } else {
-            throw std::runtime_error("unknown argument " + name + " " + value);
+            throw std::runtime_error("unknown argument " + name + "; --help lists them");
         }
     }
     return options;
@@ -334,7 +385,11 @@ Options parse(int count, char** arguments) {
 
 int main(int count, char** arguments) {
     try {
-        const Options options = parse(count, arguments);
+        if (count == 2 && std::string(arguments[1]) == "--help") {
+            std::fputs(usage, stdout);
+            return 0;
+        }
+        const Options options = parse({arguments, static_cast<std::size_t>(count)});
         Gpu gpu(false);
         std::printf("%s, driver %u, half floats %s\n", gpu.properties.deviceName, gpu.properties.driverVersion,
                     options.shaderFloat16 && gpu.shaderFloat16 ? "on" : "off");
