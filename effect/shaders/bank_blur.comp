@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
+#include "bank_surfaces.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
 
@@ -23,13 +24,6 @@ shared uint massesAndMaterials[loadedCount];
 shared uvec2 secondLights[secondLevels > 0 ? loadedCount : 1];
 shared float secondDepths[secondLevels > 0 ? loadedCount : 1];
 shared uint rough; // bits of roughness
-
-// A texel's words; those of an empty one outside the level.
-uvec4 rawWords(int level, ivec2 texel) {
-    ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
-    uvec4 words = rawTexels[texelIndex(level, inside)];
-    return texel == inside ? words : uvec4(0u);
-}
 
 struct Block {
     int level;
@@ -105,138 +99,7 @@ void noteRoughness(uint roughness) {
     }
 }
 
-void storeShared(ivec2 place, uvec4 words) {
-    int index = sharedIndex(place);
-    lights[index] = words.xy;
-    depths[index] = uintBitsToFloat(words.z);
-    massesAndMaterials[index] = words.w;
-}
-
-void storeSharedSecond(ivec2 place, uvec4 words) {
-    int index = sharedIndex(place);
-    secondLights[index] = words.xy;
-    secondDepths[index] = uintBitsToFloat(words.z);
-}
-
-// Of the second surface of a texel of a level that pass A has reduced.
-uvec4 secondWords(int level, ivec2 texel, uvec4 words) {
-    return (words.w & secondBit) != 0u ? secondTexels[texelIndex(level, texel)] : uvec4(0u);
-}
-
-// Of the texels that a block loads, counted row by row.
-ivec2 loadedPlace(int index) {
-    int row = int((float(index) + 0.5) / float(pitch));
-    return ivec2(index - row * pitch, row);
-}
-
-const int loadSteps = (loadedCount + threads - 1) / threads;
-
-// All fetches before any of them is used, so that they overlap.
-void loadBlock(Block block, int thread) {
-    uvec4 words[loadSteps];
-    [[unroll]] for (int i = 0; i < loadSteps; ++i) {
-        words[i] = rawWords(block.level, block.first - reach + loadedPlace(thread + i * threads));
-    }
-    uint roughness = 0u;
-    [[unroll]] for (int i = 0; i < loadSteps; ++i) {
-        ivec2 place = loadedPlace(thread + i * threads);
-        if (place.y < loadedRows(block)) {
-            storeShared(place, words[i]);
-            if (secondLevels > 0) {
-                storeSharedSecond(place, secondWords(block.level, block.first - reach + place, words[i]));
-            }
-            roughness |= roughnessOf(words[i]);
-        }
-    }
-    noteRoughness(roughness);
-}
-
-// Of the texels around a block only those inside it are this workgroup's to store.
-bool isOwn(Block block, ivec2 texel) {
-    ivec2 last = min(block.first + ivec2(blockSize.x, block.rows), levelExtent(block.level));
-    return all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last));
-}
-
-void storeOwn(Block block, ivec2 texel, uvec4 words) {
-    if (isOwn(block, texel)) {
-        rawTexels[texelIndex(block.level, texel)] = words;
-    }
-}
-
-// A texel of a level that pass A leaves to this one.
-RawTexel reducedTexel(int level, ivec2 texel) {
-    RawTexel children[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        children[i] = unpackRaw(rawWords(level - 1, 2 * texel + ivec2(i & 1, i >> 1)));
-    }
-    return reduceTexels(children, level);
-}
-
-RawTexel coarseTexel(int level, ivec2 texel) {
-    if (level == rawLevels + 1) {
-        return reducedTexel(level, texel);
-    }
-    RawTexel children[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        children[i] = reducedTexel(level - 1, 2 * texel + ivec2(i & 1, i >> 1));
-    }
-    return reduceTexels(children, level);
-}
-
-void loadCoarseBlock(Block block, int thread) {
-    ivec2 extent = levelExtent(block.level);
-    for (int index = thread; index < pitch * loadedRows(block); index += threads) {
-        ivec2 place = loadedPlace(index);
-        ivec2 texel = block.first - reach + place;
-        bool inside = texel == clamp(texel, ivec2(0), extent - 1);
-        uvec4 words = inside ? packRaw(coarseTexel(block.level, texel)) : uvec4(0u);
-        storeShared(place, words);
-        storeOwn(block, texel, words);
-        noteRoughness(roughnessOf(words));
-    }
-}
-
-// A texel of the level after pass A's with both surfaces. The coarsest level is made of first ones alone.
-Surfaces reducedSurfaces(int level, ivec2 texel) {
-    uvec4 firsts[4];
-    uvec4 seconds[4];
-    vec2 range = noRange;
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 child = 2 * texel + ivec2(i & 1, i >> 1);
-        firsts[i] = rawWords(level - 1, child);
-        seconds[i] = secondWords(level - 1, child, firsts[i]);
-        range = includeDepth(includeDepth(range, uintBitsToFloat(firsts[i].z)), uintBitsToFloat(seconds[i].z));
-    }
-    range = rangeOfSurfaces(range, level);
-    Surfaces surfaces = Surfaces(emptyTexel(), emptyTexel());
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        addToNearer(surfaces, unpackRaw(firsts[i]), range);
-        addToNearer(surfaces, unpackRaw(seconds[i]), range);
-    }
-    return orderSurfaces(surfaces);
-}
-
-void loadSecondsBlock(Block block, int thread) {
-    ivec2 extent = levelExtent(block.level);
-    for (int index = thread; index < pitch * loadedRows(block); index += threads) {
-        ivec2 place = loadedPlace(index);
-        ivec2 texel = block.first - reach + place;
-        uvec4 words = uvec4(0u);
-        uvec4 second = uvec4(0u);
-        if (texel == clamp(texel, ivec2(0), extent - 1)) {
-            Surfaces surfaces = reducedSurfaces(block.level, texel);
-            words = packFirst(surfaces);
-            second = packRaw(surfaces.second);
-        }
-        storeShared(place, words);
-        storeSharedSecond(place, second);
-        storeOwn(block, texel, words);
-        if ((words.w & secondBit) != 0u && isOwn(block, texel)) {
-            secondTexels[texelIndex(block.level, texel)] = second;
-        }
-        noteRoughness(roughnessOf(words));
-    }
-}
+#include "bank_blur_load.glsl"
 
 RawTexel texelAt(int index) {
     return unpackRaw(uvec4(lights[index], floatBitsToUint(depths[index]), massesAndMaterials[index]));

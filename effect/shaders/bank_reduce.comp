@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
+#include "bank_surfaces.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

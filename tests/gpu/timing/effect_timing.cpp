@@ -5,16 +5,15 @@
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/gpu/timing/copy_pass.hpp"
 #include "tests/gpu/timing/measure.hpp"
+#include "tests/gpu/timing/timing_options.hpp"
 #include "tests/gpu/timing/transmit_scene.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 using namespace nacre;
 using namespace nacre::tests;
@@ -25,25 +24,6 @@ constexpr ScatterFormats smallIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UI
                                   VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr ScatterFormats largeIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16_UINT, VK_FORMAT_R32_SFLOAT,
                                   VK_FORMAT_R16G16B16A16_SFLOAT};
-
-constexpr const char* usage = R"(effect_timing: GPU times of the scatter techniques and of transmit, beside a copy pass
-
-  --suite NAME          scenes, targets, footprint, layers, materials, transmit or all (all)
-  --techniques A,B,...  of the suite scenes, each in turn on every scene (bank)
-  --size WIDTHxHEIGHT   px (1920x1080)
-  --rounds N            of 20 steady repeats and 5 lone frames each (12)
-  --shader-float16 X    on or off: half floats where the device has them (on)
-  --csv FILE            where all figures go (effect_timing.csv)
-)";
-
-struct Options {
-    std::string suite = "all";
-    std::string csv = "effect_timing.csv";
-    VkExtent2D extent{1920, 1080};                                // targets are measured at twice that, too
-    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK}; // of the suite `scenes`
-    MeasureSettings measure;
-    bool shaderFloat16 = true; // where the device has it
-};
 
 // What is on the screen.
 struct Subject {
@@ -109,17 +89,6 @@ void setPlaneIds(ScatterInput& input, const Subject& subject) {
     }
 }
 
-// All but `brute`; `bank` first.
-std::vector<NacreTechnique> realTimeTechniques() {
-    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
-    for (int i = 1; std::string(nacreTechniqueString(static_cast<NacreTechnique>(i))) != "unknown"; ++i) {
-        if (i != NACRE_TECHNIQUE_BRUTE && i != NACRE_TECHNIQUE_BANK) {
-            techniques.push_back(static_cast<NacreTechnique>(i));
-        }
-    }
-    return techniques;
-}
-
 Variant makeVariant(Effect& effect, const ScatterImages& images, NacreTechnique technique, std::string name) {
     NacreCost cost{};
     nacreGetScatterCost(effect.context, technique, &cost);
@@ -151,7 +120,7 @@ void print(const Timing& timing) {
 
 // The techniques in turn, the first of them twice (their difference is the noise floor), and the copy pass.
 void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechnique> techniques,
-                    const Options& options, std::vector<Row>& rows) {
+                    const TimingOptions& options, std::vector<Row>& rows) {
     const ScatterScene scene = makeSubject(subject);
     ScatterInput input = toInput(scene);
     if (subject.kind == SceneKind::Plane) {
@@ -203,7 +172,7 @@ void printSlopes(const char* what, std::span<const Row> rows, double (*parameter
 }
 
 // One of each: a minute's answer to a change of shaders.
-void runScenes(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
+void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     measureSubject(gpu, {.extent = options.extent}, options.techniques, options, rows);
     measureSubject(gpu, {.extent = options.extent, .footprint = 60, .coverage = 0.25}, options.techniques, options,
                    rows);
@@ -213,7 +182,7 @@ void runScenes(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
     }
 }
 
-void runTargets(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
+void runTargets(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     const std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
     const std::vector<NacreTechnique> all = realTimeTechniques();
     for (const bool small : {true, false}) {
@@ -233,7 +202,7 @@ void runTargets(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
     }
 }
 
-void runFootprints(Gpu& gpu, const Options& options, std::vector<Row>& all) {
+void runFootprints(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
     std::vector<Row> rows;
     for (const double footprint : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}) {
         measureSubject(gpu, {.extent = options.extent, .footprint = footprint, .materials = 1}, realTimeTechniques(),
@@ -243,7 +212,7 @@ void runFootprints(Gpu& gpu, const Options& options, std::vector<Row>& all) {
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
-void runLayers(Gpu& gpu, const Options& options, std::vector<Row>& all) {
+void runLayers(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
     std::vector<Row> rows;
     for (const int layers : {1, 2, 4, 8, 16, 32}) {
         measureSubject(gpu, {.extent = options.extent, .layers = layers, .materials = 1}, realTimeTechniques(), options,
@@ -253,7 +222,7 @@ void runLayers(Gpu& gpu, const Options& options, std::vector<Row>& all) {
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
-void runMaterials(Gpu& gpu, const Options& options, std::vector<Row>& all) {
+void runMaterials(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
     std::vector<Row> rows;
     // Five and more have 16-bit ids; so have all of this series.
     for (const int materials : {5, 10, 50, 100, 500, 1000}) {
@@ -264,7 +233,7 @@ void runMaterials(Gpu& gpu, const Options& options, std::vector<Row>& all) {
 }
 
 // Three lights with shadow maps. Twice: the difference is the noise floor.
-void runTransmit(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
+void runTransmit(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     constexpr std::uint32_t shadowMapSize = 2048;
     const Subject subject{.kind = SceneKind::Spheres, .extent = options.extent, .coverage = 0.25, .materials = 1};
     NacreContextInfo contextInfo = gpu.contextInfo(options.extent);
@@ -294,7 +263,7 @@ void runTransmit(Gpu& gpu, const Options& options, std::vector<Row>& rows) {
     std::fflush(stdout);
 }
 
-void writeCsv(const Options& options, std::span<const Row> rows) {
+void writeCsv(const TimingOptions& options, std::span<const Row> rows) {
     std::ofstream file(options.csv);
     file << "scene,width,height,coverage,footprint,layers,materials,technique,samples,steady_median_us,steady_p5_us,"
             "steady_p95_us,single_median_us,single_p5_us,single_p95_us,pass_medians_us\n";
@@ -314,87 +283,20 @@ void writeCsv(const Options& options, std::span<const Row> rows) {
     }
 }
 
-std::vector<NacreTechnique> parseTechniques(const std::string& names) {
-    std::vector<NacreTechnique> result;
-    std::istringstream list(names);
-    for (std::string name; std::getline(list, name, ',');) {
-        const std::vector<NacreTechnique> known = realTimeTechniques();
-        const auto technique =
-            std::ranges::find_if(known, [&](NacreTechnique each) { return name == nacreTechniqueString(each); });
-        if (technique == known.end()) {
-            throw std::runtime_error("--techniques has '" + name + "', must be names of real-time techniques");
-        }
-        result.push_back(*technique);
-    }
-    return result;
-}
-
-VkExtent2D parseSize(const std::string& text) {
-    VkExtent2D extent{};
-    int end = 0;
-    if (std::sscanf(text.c_str(), "%5ux%5u%n", &extent.width, &extent.height, &end) != 2 || text[end] != '\0' ||
-        extent.width == 0 || extent.height == 0) {
-        throw std::runtime_error("--size is '" + text + "', must be WIDTHxHEIGHT");
-    }
-    return extent;
-}
-
-std::uint32_t parseRounds(const std::string& text) {
-    const int rounds = std::atoi(text.c_str());
-    if (rounds < 1) {
-        throw std::runtime_error("--rounds is '" + text + "', must be 1 or more");
-    }
-    return static_cast<std::uint32_t>(rounds);
-}
-
-bool parseSwitch(const std::string& name, const std::string& text) {
-    if (text != "on" && text != "off") {
-        throw std::runtime_error(name + " is '" + text + "', must be on or off");
-    }
-    return text == "on";
-}
-
-Options parse(std::span<char*> arguments) {
-    Options options;
-    for (std::size_t i = 1; i < arguments.size(); i += 2) {
-        const std::string name = arguments[i];
-        const std::string value = i + 1 < arguments.size() ? arguments[i + 1] : "";
-        if (value.empty()) {
-            throw std::runtime_error(name + " needs a value; --help lists the options");
-        }
-        if (name == "--suite") {
-            options.suite = value;
-        } else if (name == "--techniques") {
-            options.techniques = parseTechniques(value);
-        } else if (name == "--csv") {
-            options.csv = value;
-        } else if (name == "--rounds") {
-            options.measure.rounds = parseRounds(value);
-        } else if (name == "--shader-float16") {
-            options.shaderFloat16 = parseSwitch(name, value);
-        } else if (name == "--size") {
-            options.extent = parseSize(value);
-        } else {
-            throw std::runtime_error("unknown argument " + name + "; --help lists them");
-        }
-    }
-    return options;
-}
-
 } // namespace
 
 int main(int count, char** arguments) {
     try {
         if (count == 2 && std::string(arguments[1]) == "--help") {
-            std::fputs(usage, stdout);
+            std::fputs(timingUsage, stdout);
             return 0;
         }
-        const Options options = parse({arguments, static_cast<std::size_t>(count)});
+        const TimingOptions options = parseTimingOptions({arguments, static_cast<std::size_t>(count)});
         Gpu gpu(false);
         std::printf("%s, driver %u, half floats %s\n", gpu.properties.deviceName, gpu.properties.driverVersion,
                     options.shaderFloat16 && gpu.shaderFloat16 ? "on" : "off");
         std::vector<Row> rows;
-        const std::pair<const char*, void (*)(Gpu&, const Options&, std::vector<Row>&)> suites[] = {
+        const std::pair<const char*, void (*)(Gpu&, const TimingOptions&, std::vector<Row>&)> suites[] = {
             {"scenes", runScenes}, {"targets", runTargets},     {"footprint", runFootprints},
             {"layers", runLayers}, {"materials", runMaterials}, {"transmit", runTransmit}};
         bool known = false;

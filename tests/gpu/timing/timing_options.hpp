@@ -1,0 +1,31 @@
+// What effect_timing is asked to do.
+#pragma once
+
+#include "nacre/nacre.h"
+#include "tests/gpu/timing/measure.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nacre::tests {
+
+struct TimingOptions {
+    std::string suite = "all";
+    std::string csv = "effect_timing.csv";
+    VkExtent2D extent{1920, 1080};                                // targets are measured at twice that, too
+    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK}; // of the suite `scenes`
+    MeasureSettings measure;
+    bool shaderFloat16 = true; // where the device has it
+};
+
+/// What --help says.
+extern const char* const timingUsage;
+
+/// All but `brute`; `bank` first.
+std::vector<NacreTechnique> realTimeTechniques();
+
+/// The program's name, then options with their values. Throws std::runtime_error naming the one that is wrong.
+TimingOptions parseTimingOptions(std::span<char*> arguments);
+
+} // namespace nacre::tests
