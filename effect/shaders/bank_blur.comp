@@ -288,6 +288,9 @@ void main() {
         storeBlurred(block, local, emptyBlurred);
         return;
     }
+    if (secondLevels > 0 && block.level <= rawLevels && (rough & anySecond) != 0u) {
+        loadSeconds(block, thread);
+    }
     if (thread < pitch * loadedRows(block) / 4) {
         int row = thread / (pitch / 2);
         noteRoughness(roughnessBetween(block, 2 * ivec2(thread - row * (pitch / 2), row)));

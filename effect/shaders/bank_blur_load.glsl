@@ -21,9 +21,9 @@ void storeSharedSecond(ivec2 place, uvec4 words) {
     secondDepths[index] = uintBitsToFloat(words.z);
 }
 
-// Of the second surface of a texel of a level that pass A has reduced.
-uvec4 secondWords(int level, ivec2 texel, uvec4 words) {
-    return (words.w & secondBit) != 0u ? secondTexels[texelIndex(level, texel)] : uvec4(0u);
+// Of the second surface of a texel of a level that pass A has reduced. `word`: the last of its own.
+uvec4 secondWords(int level, ivec2 texel, uint word) {
+    return (word & secondBit) != 0u ? secondTexels[texelIndex(level, texel)] : uvec4(0u);
 }
 
 // Of the texels that a block loads, counted row by row.
@@ -45,13 +45,21 @@ void loadBlock(Block block, int thread) {
         ivec2 place = loadedPlace(thread + i * threads);
         if (place.y < loadedRows(block)) {
             storeShared(place, words[i]);
-            if (secondLevels > 0) {
-                storeSharedSecond(place, secondWords(block.level, block.first - reach + place, words[i]));
-            }
             roughness |= roughnessOf(words[i]);
         }
     }
     noteRoughness(roughness);
+}
+
+// The second surfaces of what loadBlock has loaded, only where there are any.
+void loadSeconds(Block block, int thread) {
+    [[unroll]] for (int i = 0; i < loadSteps; ++i) {
+        ivec2 place = loadedPlace(thread + i * threads);
+        if (place.y < loadedRows(block)) {
+            uint word = massesAndMaterials[sharedIndex(place)];
+            storeSharedSecond(place, secondWords(block.level, block.first - reach + place, word));
+        }
+    }
 }
 
 // Of the texels around a block only those inside it are this workgroup's to store.
@@ -107,7 +115,7 @@ Surfaces reducedSurfaces(int level, ivec2 texel) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 child = 2 * texel + ivec2(i & 1, i >> 1);
         firsts[i] = rawWords(level - 1, child);
-        seconds[i] = secondWords(level - 1, child, firsts[i]);
+        seconds[i] = secondWords(level - 1, child, firsts[i].w);
         range = includeDepth(includeDepth(range, uintBitsToFloat(firsts[i].z)), uintBitsToFloat(seconds[i].z));
     }
     range = rangeOfSurfaces(range, level);
