@@ -290,8 +290,11 @@ float separationAt(int level, float nearest) {
     return (keepsSeconds(level) ? bankSecondSeparation : bankSurfaceSeparation) * texelWidth(level, nearest);
 }
 
-// Nearest and farthest depth of the texels that are not empty, and of what `range` holds already.
-vec2 depthRange(RawTexel texels[4], vec2 range) {
+const vec2 noRange = vec2(1e30, 0.0);
+
+// Nearest and farthest depth of the texels that are not empty.
+vec2 depthRange(RawTexel texels[4]) {
+    vec2 range = noRange;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         float depth = texels[i].depth;
         range = vec2(texels[i].mass > 0.0 ? min(range.x, depth) : range.x, max(range.y, depth)); // 0 where it is empty
@@ -299,12 +302,10 @@ vec2 depthRange(RawTexel texels[4], vec2 range) {
     return range;
 }
 
-const vec2 noRange = vec2(1e30, 0.0);
-
 // Which of four texels the next level's texel keeps: those of one surface, nearest or farthest, whichever has more
 // mass; and of those, where materials are separate, the ones that exchange light with the heaviest.
 bvec4 chooseSurface(RawTexel texels[4], int level) {
-    vec2 range = depthRange(texels, noRange);
+    vec2 range = depthRange(texels);
     float separation = separationAt(level, range.x);
     float front = 0.0; // mass within reach of the nearest depth,
     float back = 0.0;  // and of the farthest; both are all of it where all is one surface

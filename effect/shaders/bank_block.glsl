@@ -169,9 +169,18 @@ Reduced reducePlain(Block block, Sides sides, float width) {
     return Reduced(texel, emptyTexel(), steps * (0.5 / width), areas);
 }
 
+// Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
+bvec4 nearerHalf(RawTexel texels[4], vec2 range) {
+    bvec4 result;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        result[i] = texels[i].mass > 0.0 && texels[i].depth - range.x <= range.y - texels[i].depth;
+    }
+    return result;
+}
+
 // Which pixels are on the surface that has more of them.
 bvec4 heavierHalf(RawTexel pixels[4]) {
-    vec2 range = depthRange(pixels, noRange);
+    vec2 range = depthRange(pixels);
     bool isOne = range.y - range.x <= separationAt(1, range.x);
     bvec4 near = nearerHalf(pixels, range);
     bvec4 valid;

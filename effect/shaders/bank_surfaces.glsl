@@ -1,15 +1,6 @@
 // How passes A and B of `bank-surfaces` make a texel of two surfaces from those of the level below. docs/scatter.md. Included
 // after bank.glsl.
 
-// Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
-bvec4 nearerHalf(RawTexel texels[4], vec2 range) {
-    bvec4 result;
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        result[i] = texels[i].mass > 0.0 && texels[i].depth - range.x <= range.y - texels[i].depth;
-    }
-    return result;
-}
-
 // A texel's two surfaces, the one with more mass first; the second is empty where all is one surface.
 struct Surfaces {
     RawTexel first;
