@@ -156,7 +156,7 @@ ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given
     constexpr const char* name = "NacreScatterInfo";
     ScatterParameters parameters{};
     ViewParameters& view = parameters.view;
-    view.flags = flagsOf(given);
+    view.flags = flagsOf(given) | (info.skipUnscattered ? flagSkipUnscattered : 0u);
     setNormals(view, info, name);
     setView(view, info.view, area, (view.flags & flagNormal) != 0, name);
     parameters.pixelWidth = pixelWidth(view);

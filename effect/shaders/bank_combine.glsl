@@ -139,13 +139,3 @@ void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum s
         }
     }
 }
-
-// Writes the thread's other pixels. `scattering`: bits of those that have a material.
-void storeRest(ivec2 first, uint scattering) {
-    [[dont_unroll]] for (int i = 0; i < ownPixels; ++i) {
-        ivec2 local = first + ivec2(i & 1, i >> 1);
-        if ((scattering >> i & 1u) == 0u && all(lessThan(local, view.areaExtent))) {
-            writeUnscattered(local + view.areaOffset);
-        }
-    }
-}

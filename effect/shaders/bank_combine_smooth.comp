@@ -297,6 +297,16 @@ Quad loadRegion(Region region, int thread, ivec2 texel) {
     return quad;
 }
 
+// Writes the quad's pixels that have no material. `scattering`: bits of the others.
+void storeRest(ivec2 first, uint scattering) {
+    [[dont_unroll]] for (int i = 0; i < ownPixels; ++i) {
+        ivec2 local = first + ivec2(i & 1, i >> 1);
+        if ((scattering >> i & 1u) == 0u && all(lessThan(local, view.areaExtent))) {
+            writeUnscattered(local + view.areaOffset, 0u);
+        }
+    }
+}
+
 void main() {
     Region region;
     if (!findRegion(0, region)) {

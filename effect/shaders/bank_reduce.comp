@@ -163,9 +163,8 @@ void storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
     storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel, quad);
 }
 
-// A tile without subsurface pixels: the pyramid is empty there, and the light leaves where it enters, row by row. Of level 1
-// nothing is written: pass C knows which tiles are empty.
-void emptyTile(ivec2 tile, int thread) {
+// The light of a tile without subsurface pixels leaves where it enters, row by row.
+void copyTile(ivec2 tile, int thread) {
     bool hasAlbedo = hasFlag(flagAlbedo);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 local = tile * tileSize + ivec2(thread % tileSize, thread / tileSize + 4 * i);
@@ -175,6 +174,10 @@ void emptyTile(ivec2 tile, int thread) {
             imageStore(scatteredImage, local + view.areaOffset, vec4(light * albedo, 1.0));
         }
     }
+}
+
+// The pyramid is empty there. Of level 1 nothing is written: pass C knows which tiles are empty.
+void clearTile(ivec2 tile, int thread) {
     for (int level = 2; level <= rawLevels; ++level) {
         int width = tileSize >> level;
         if (thread < width * width) {
@@ -212,7 +215,10 @@ void main() {
         if (thread == 0) {
             tileEntries[tileIndex(tile)] = 0u;
         }
-        emptyTile(tile, thread);
+        if (!hasFlag(flagSkipUnscattered)) {
+            copyTile(tile, thread);
+        }
+        clearTile(tile, thread);
         return;
     }
     // Ids were fetched first, so that an empty tile ends sooner; all the rest before anything is asked, so that fetches overlap.

@@ -52,8 +52,11 @@ vec3 mixEntering(ivec2 pixel, uint material, vec3 scattered, float strength) {
     return isFinite(entering) ? mix(entering, scattered, strength) : scattered;
 }
 
-// Writes a pixel without subsurface scattering.
-void writeUnscattered(ivec2 pixel) {
+// Writes a pixel without subsurface scattering, unless it has no material and is to be left as it is.
+void writeUnscattered(ivec2 pixel, uint material) {
+    if (material == 0u && hasFlag(flagSkipUnscattered)) {
+        return;
+    }
     vec3 light = texelFetch(irradianceImage, pixel, 0).rgb;
     vec3 albedo = hasFlag(flagAlbedo) ? texelFetch(albedoImage, pixel, 0).rgb : vec3(1.0);
     imageStore(scatteredImage, pixel, vec4(light * albedo, 1.0));

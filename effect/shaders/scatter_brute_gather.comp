@@ -185,7 +185,7 @@ void main() {
     uint material = materialAt(pixel);
     float z = viewZ(pixel);
     if (material == 0u || !isValidZ(z) || strengthAt(pixel, material) == 0.0) {
-        writeUnscattered(pixel);
+        writeUnscattered(pixel, material);
         return;
     }
     Receiver receiver = Receiver(local, material, viewPosition(pixel, z));

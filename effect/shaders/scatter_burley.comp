@@ -165,7 +165,7 @@ void main() {
     float radius = materials[material].radius;
     float radiusPixels = radius / (parameters.pixelWidth * clipW(z));
     if (material == 0u || !isValidZ(z) || strengthAt(pixel, material) == 0.0 || radiusPixels < 1.0) {
-        writeUnscattered(pixel);
+        writeUnscattered(pixel, material);
         return;
     }
     float wanted = ceil(pi * radiusPixels * radiusPixels / areaPerSample);

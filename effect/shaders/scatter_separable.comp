@@ -116,7 +116,7 @@ void main() {
     if (scatters && strengthAt(pixel, material) > 0.0) {
         writeScattered(pixel, material, gather(pixel, material, z));
     } else {
-        writeUnscattered(pixel);
+        writeUnscattered(pixel, material);
     }
 #endif
 }

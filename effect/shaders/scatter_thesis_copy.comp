@@ -13,6 +13,6 @@ void main() {
     ivec2 pixel = local + view.areaOffset;
     uint material = materialAt(pixel);
     if (material == 0u || !isValidZ(viewZ(pixel)) || strengthAt(pixel, material) == 0.0) {
-        writeUnscattered(pixel);
+        writeUnscattered(pixel, material);
     }
 }

@@ -70,7 +70,7 @@ NACRE_CONSTANT intermediateBankSeconds = 9;
 
 NACRE_CONSTANT maxShadowMaps = 16; // NACRE_MAX_SHADOW_MAPS
 
-// ScatterParameters::flags, TransmitParameters::flags: which optional images are given.
+// ViewParameters::flags: which optional images are given, and what is asked for.
 NACRE_CONSTANT flagNormal = 1u;
 NACRE_CONSTANT flagStrength = 2u;
 NACRE_CONSTANT flagAlbedo = 4u;
@@ -78,6 +78,7 @@ NACRE_CONSTANT flagThickness = 8u;
 NACRE_CONSTANT flagThicknessOut = 16u;
 NACRE_CONSTANT flagThesisTransmittance = 32u;
 NACRE_CONSTANT flagHardwareDepth = 64u;
+NACRE_CONSTANT flagSkipUnscattered = 128u; // NacreScatterInfo::skipUnscattered
 
 // A camera. Lengths in mm, pixels are those of the whole image. A pixel's view-space position at view depth z is
 // (ray·z + origin, z) with ray = rayX·pixel.x + rayY·pixel.y + rayBias and origin alike (view.glsl).

@@ -19,9 +19,10 @@
  *  5. An error is a result code and a message (NacreContextInfo::messageCallback) that names the field and its value.
  *     After an error the command buffer is as it was. Every struct is zero-initialisable; 0 is stated per field.
  *  6. Optional inputs are NacreImages with a null view; each states its fallback.
- *  7. Masks are explicit: material id 0 means "no subsurface scattering here" and copies the irradiance. Black is a
- *     colour. What a rejected neighbour would have given is renormalised: a constant field stays constant to 1e-3.
- *     An irradiance or depth that is not finite makes its pixel a source of nothing; it does not spread.
+ *  7. Masks are explicit: material id 0 means "no subsurface scattering here" and copies the irradiance, or leaves
+ *     the pixel alone (NacreScatterInfo::skipUnscattered). Black is a colour. What a rejected neighbour would have
+ *     given is renormalised: a constant field stays constant to 1e-3. An irradiance or depth that is not finite makes
+ *     its pixel a source of nothing; it does not spread.
  *  8. Cost can be asked: dispatches, bytes of intermediates, pass names; every pass can be timed.
  *
  * CONVENTIONS
@@ -288,6 +289,9 @@ typedef struct NacreScatterInfo {
     VkBool32 thesisBakedKernel;  /**< every material gets the kernel of nacreBakeThesisKernel, which is compiled in */
     NacreImage scattered;     /**< output; not the irradiance image. Where there is no subsurface scattering it is the
                                    irradiance (times the albedo when one is given) */
+    VkBool32 skipUnscattered; /**< leaves the pixels of `scattered` whose material id is 0 or was never set as they are:
+                                   for callers that ask the id before they read it, as when the scattered light is added
+                                   where a stencil or the id says so. VK_FALSE: they get the irradiance, as above */
     NacreTimestamps timestamps;
 } NacreScatterInfo;
 

@@ -89,17 +89,18 @@ void setPlaneIds(ScatterInput& input, const Subject& subject) {
     }
 }
 
-Variant makeVariant(Effect& effect, const ScatterImages& images, NacreTechnique technique, std::string name) {
+Variant makeVariant(Effect& effect, const ScatterImages& images, NacreTechnique technique, VkBool32 skipUnscattered) {
     NacreCost cost{};
     nacreGetScatterCost(effect.context, technique, &cost);
     Variant variant;
-    variant.name = std::move(name);
+    variant.name = nacreTechniqueString(technique) + std::string(skipUnscattered ? " skipping" : "");
     variant.passes.assign(cost.passNames, cost.passNames + cost.passCount);
     variant.begin = [&effect] { nacreBeginFrame(effect.context, 0); };
-    variant.record = [&effect, &images, technique](VkCommandBuffer commandBuffer, VkQueryPool pool,
-                                                   std::uint32_t first) {
+    variant.record = [&effect, &images, technique, skipUnscattered](VkCommandBuffer commandBuffer, VkQueryPool pool,
+                                                                    std::uint32_t first) {
         NacreScatterInfo info = images.info;
         info.technique = technique;
+        info.skipUnscattered = skipUnscattered;
         info.timestamps = {pool, first};
         if (nacreCmdScatter(effect.context, commandBuffer, &info) != NACRE_SUCCESS) {
             throw std::runtime_error(effect.messages.back());
@@ -146,10 +147,12 @@ void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechn
                             copy.record(commandBuffer, pool, first);
                         }});
     for (const NacreTechnique technique : techniques) {
-        variants.push_back(makeVariant(effect, images, technique, nacreTechniqueString(technique)));
+        for (const VkBool32 skipUnscattered : options.skipUnscattered) {
+            variants.push_back(makeVariant(effect, images, technique, skipUnscattered));
+        }
     }
-    variants.push_back(
-        makeVariant(effect, images, techniques[0], nacreTechniqueString(techniques[0]) + std::string(" again")));
+    variants.push_back(variants[1]);
+    variants.back().name += " again";
     std::printf("%s\n", subject.label().c_str());
     for (Timing& timing : measure(gpu, variants, options.measure)) {
         print(timing);

@@ -49,6 +49,16 @@ bool parseSwitch(const std::string& name, const std::string& text) {
     return text == "on";
 }
 
+std::vector<VkBool32> parseSwitches(const std::string& name, const std::string& text) {
+    if (text == "both") {
+        return {VK_FALSE, VK_TRUE};
+    }
+    if (text != "on" && text != "off") {
+        throw std::runtime_error(name + " is '" + text + "', must be on, off or both");
+    }
+    return {text == "on"};
+}
+
 } // namespace
 
 const char* const timingUsage =
@@ -59,6 +69,7 @@ const char* const timingUsage =
   --size WIDTHxHEIGHT   px (1920x1080)
   --rounds N            of 20 steady repeats and 5 lone frames each (12)
   --shader-float16 X    on or off: half floats where the device has them (on)
+  --skip-unscattered X  on, off or both: pixels without a material are left as they are (off)
   --csv FILE            where all figures go (effect_timing.csv)
 )";
 
@@ -90,6 +101,8 @@ TimingOptions parseTimingOptions(std::span<char*> arguments) {
             options.measure.rounds = parseRounds(value);
         } else if (name == "--shader-float16") {
             options.shaderFloat16 = parseSwitch(name, value);
+        } else if (name == "--skip-unscattered") {
+            options.skipUnscattered = parseSwitches(name, value);
         } else if (name == "--size") {
             options.extent = parseSize(value);
         } else {

@@ -16,7 +16,8 @@ struct TimingOptions {
     VkExtent2D extent{1920, 1080};                                // targets are measured at twice that, too
     std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK}; // of the suite `scenes`
     MeasureSettings measure;
-    bool shaderFloat16 = true; // where the device has it
+    bool shaderFloat16 = true;                       // where the device has it
+    std::vector<VkBool32> skipUnscattered{VK_FALSE}; // one after the other
 };
 
 /// What --help says.
