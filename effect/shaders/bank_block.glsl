@@ -104,10 +104,13 @@ struct Sides {
     vec2 left, right, above, below;
 };
 
+vec2 depthsAt(int place, int next) {
+    return uintBitsToFloat(uvec2(depths[place], depths[next]));
+}
+
 Sides sidesOf(int place) {
-    return Sides(vec2(depths[place - 1], depths[place + pitch - 1]), vec2(depths[place + 2], depths[place + pitch + 2]),
-                 vec2(depths[place - pitch], depths[place - pitch + 1]),
-                 vec2(depths[place + 2 * pitch], depths[place + 2 * pitch + 1]));
+    return Sides(depthsAt(place - 1, place + pitch - 1), depthsAt(place + 2, place + pitch + 2),
+                 depthsAt(place - pitch, place - pitch + 1), depthsAt(place + 2 * pitch, place + 2 * pitch + 1));
 }
 
 // A pair of pixels in a row or column, and the pixels before and after it.

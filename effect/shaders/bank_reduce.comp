@@ -14,12 +14,12 @@ const int side = tileSize / 2; // texels of level 1
 shared vec4 lightsAndAreas[side * side];
 shared vec2 depthsAndMasses[side * side]; // mass: negative where pixels were dropped
 shared uint texelMaterials[separateMaterials ? side * side : 1];
-shared uvec4 seconds[secondLevels > 0 ? side * side : 1]; // their second surfaces, in the words of packRaw
 shared vec4 wholeLights[4]; // sums of a whole tile's level 3
 shared float wholeDepths[4];
-// Of the tile's pixels and one around, mm; 0 where none receives light.
+// Of the tile's pixels and one around, mm; 0 where none receives light. As bits, since once level 1 is made its second surfaces
+// stand there, in the words of packRaw: with more shared memory fewer workgroups run at a time.
 const int pitch = tileSize + 2;
-shared float depths[pitch * pitch];
+shared uint depths[pitch * pitch];
 shared uint occupied; // whether some pixel has an id
 shared uint roughness; // tileRough of the tile's blocks, and notFull
 // A pixel of some block is on no surface, or on another than the block's. With second surfaces: some block is not plain.
@@ -27,8 +27,23 @@ const uint notFull = 1u;
 
 #include "bank_block.glsl"
 
-// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 packQuad.
-void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint quad) {
+void storeSharedSecond(int place, uvec4 words) {
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        depths[i * side * side + place] = words[i];
+    }
+}
+
+uvec4 sharedSecond(int place) {
+    uvec4 words;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        words[i] = depths[i * side * side + place];
+    }
+    return words;
+}
+
+// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 packQuad. Returns the second surface, which is
+// in the pyramid alone.
+uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint quad) {
     RawTexel first = surfaces.first;
     lightsAndAreas[place] = vec4(first.light, first.area);
     depthsAndMasses[place] = vec2(first.depth, first.dropped ? -first.mass : first.mass);
@@ -38,15 +53,14 @@ void storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint qu
     int index = texelIndex(level, texel);
     uvec4 words = packRaw(first);
     words.w = level == 1 ? quad : words.w;
-    if (secondLevels > 0) {
-        uvec4 second = packRaw(surfaces.second);
-        seconds[place] = second;
-        if (surfaces.second.mass > 0.0) {
-            words.w |= secondBit;
-            secondTexels[index] = second;
-        }
+    uvec4 second = uvec4(0u);
+    if (secondLevels > 0 && surfaces.second.mass > 0.0) {
+        second = packRaw(surfaces.second);
+        words.w |= secondBit;
+        secondTexels[index] = second;
     }
     rawTexels[index] = words;
+    return second;
 }
 
 RawTexel texelAt(int place) {
@@ -80,14 +94,14 @@ Surfaces reduceBoth(Children children, int level) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = childPlace(children, i);
         range = includeDepth(range, depthsAndMasses[place].x);
-        range = includeDepth(range, uintBitsToFloat(seconds[place].z));
+        range = includeDepth(range, uintBitsToFloat(sharedSecond(place).z));
     }
     range = rangeOfSurfaces(range, level);
     Surfaces surfaces = Surfaces(emptyTexel(), emptyTexel());
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = childPlace(children, i);
         addToNearer(surfaces, texelAt(place), range);
-        addToNearer(surfaces, unpackRaw(seconds[place]), range);
+        addToNearer(surfaces, unpackRaw(sharedSecond(place)), range);
     }
     return orderSurfaces(surfaces);
 }
@@ -101,7 +115,10 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     int spacing = 1 << (level - 2);
     Children children = Children((texel.y * side + texel.x) * 2 * spacing, spacing);
     Surfaces surfaces = secondLevels > 0 ? reduceBoth(children, level) : reduceOne(children, level);
-    storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, 0u);
+    uvec4 second = storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, 0u);
+    if (secondLevels > 0) {
+        storeSharedSecond(children.first, second);
+    }
 }
 
 // Sums of a whole tile's texels, which all are full.
@@ -153,14 +170,15 @@ void reduceWholeTile(ivec2 tile, int thread) {
     }
 }
 
-void storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
+// Returns the second surface.
+uvec4 storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
     int index = texelIndex(1, tile * side + texel);
     uint quad = packQuad(weightsBeside(reduced.slope), materials, separateMaterials ? reduced.texel.material : 0u);
     if ((quad & mixedBit) != 0u) {
         quadMaterials[index] = materials;
     }
     quadAreas[index] = packAreas(reduced.areas);
-    storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel, quad);
+    return storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel, quad);
 }
 
 // The light of a tile without subsurface pixels leaves where it enters, row by row.
@@ -227,12 +245,12 @@ void main() {
     decodeBlock(block, first);
     int place = depthPlace(2 * texel);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        depths[place + (i & 1) + (i >> 1) * pitch] = block.depth[i];
+        depths[place + (i & 1) + (i >> 1) * pitch] = floatBitsToUint(block.depth[i]);
     }
-    depths[ring.place] = receivingDepth(ring.material, ring.pixel, ring.depth);
+    depths[ring.place] = floatBitsToUint(receivingDepth(ring.material, ring.pixel, ring.depth));
     barrier();
     uvec2 materials = uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16);
-    storeQuad(reduceBlock(block, place, texel), materials, tile, texel);
+    uvec4 second = storeQuad(reduceBlock(block, place, texel), materials, tile, texel);
     barrier();
     if (thread == 0) {
         tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notFull);
@@ -240,6 +258,10 @@ void main() {
     if (roughness == 0u && !separateMaterials) {
         reduceWholeTile(tile, thread);
         return;
+    }
+    if (secondLevels > 0) {
+        storeSharedSecond(texel.y * side + texel.x, second);
+        barrier();
     }
     for (int level = 2; level <= rawLevels; ++level) {
         reduceLevel(level, tile, thread);
