@@ -138,24 +138,14 @@ BlurredTexel findSurface(int level, int center) {
     return result;
 }
 
-vec4 lightAndAreaAt(int index) {
-    return vec4(unpackHalf2x16(lights[index].x), unpackHalf2x16(lights[index].y));
+// Light and area of a texel.
+vec4 unpackTap(uvec2 words) {
+    return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
 }
 
-// Adds a tap to light and area. An empty texel has no area. `scale`: depthScale.
-void addTap(inout vec4 sum, int index, BlurredTexel surface, float kernel, float scale) {
-    vec4 tap = lightAndAreaAt(index);
-    float weight = depthWeight(depths[index] - surface.depth, scale) * (kernel * tap.w);
-    if (separateMaterials) {
-        weight = exchanges(massesAndMaterials[index] >> 16, surface.material) ? weight : 0.0;
-    }
-    sum += weight * vec4(tap.rgb, 1.0);
-}
-
-// The same of a texel's second surface.
-void addSecondTap(inout vec4 sum, int index, float depth, float kernel, float scale) {
-    vec4 tap = vec4(unpackHalf2x16(secondLights[index].x), unpackHalf2x16(secondLights[index].y));
-    float weight = depthWeight(secondDepths[index] - depth, scale) * (kernel * tap.w);
+// Adds a tap to light and area. An empty texel has no area. `distance`: how far it is behind the surface. `scale`: depthScale.
+void addTap(inout vec4 sum, vec4 tap, float distance, float kernel, float scale) {
+    float weight = depthWeight(distance, scale) * (kernel * tap.w);
     sum += weight * vec4(tap.rgb, 1.0);
 }
 
@@ -171,10 +161,17 @@ BlurredTexel blurAlong(BlurredTexel surface, int level, int center) {
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
-            addTap(sum, center + x + y * pitch, surface, kernelTaps[abs(x)] * kernelTaps[abs(y)], scale);
+            int index = center + x + y * pitch;
+            float kernel = kernelTaps[abs(x)] * kernelTaps[abs(y)];
+            if (separateMaterials) {
+                kernel = exchanges(massesAndMaterials[index] >> 16, surface.material) ? kernel : 0.0;
+            }
+            addTap(sum, unpackTap(lights[index]), depths[index] - surface.depth, kernel, scale);
         }
         [[unroll]] for (int x = -2; seconds && x <= 2; ++x) {
-            addSecondTap(sum, center + x + y * pitch, surface.depth, kernelTaps[abs(x)] * kernelTaps[abs(y)], scale);
+            int index = center + x + y * pitch;
+            float kernel = kernelTaps[abs(x)] * kernelTaps[abs(y)];
+            addTap(sum, unpackTap(secondLights[index]), secondDepths[index] - surface.depth, kernel, scale);
         }
     }
     surface.mass = unpackHalf2x16(packHalf2x16(vec2(massOf(sum.w), 0.0))).x; // as it is stored
@@ -215,7 +212,7 @@ BlurredTexel blurPlain(int level, int center) {
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
             int index = center + x + y * pitch;
-            addPlainTap(sum, lightAndAreaAt(index), depths[index], from, kernelRoots[abs(x)] * kernelRoots[abs(y)]);
+            addPlainTap(sum, unpackTap(lights[index]), depths[index], from, kernelRoots[abs(x)] * kernelRoots[abs(y)]);
         }
     }
     return plainTexel(sum, center);
