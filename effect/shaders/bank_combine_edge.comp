@@ -95,7 +95,8 @@ void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
 
 // The identity.
 void addIdentity(inout Sum sum, vec3 weight, ivec2 local) {
-    add(sum, max(weight, vec3(bankLeastIdentity)), unpackLight(pixelLights[ownPlace(local, ivec2(0))]));
+    vec4 lightAndArea = unpackLight(pixelLights[ownPlace(local, ivec2(0))]);
+    add(sum, max(weight, vec3(bankLeastIdentity)), vec4(lightAndArea.rgb, massOf(lightAndArea.a)));
 }
 
 // Light times mass, and mass, from light and area that were summed with depth weights over the surface within a kernel's reach.
@@ -115,11 +116,12 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 local, uint material, float dep
         float root = (offset.x == 0 ? middleRoot : besideRoot) * (offset.y == 0 ? middleRoot : besideRoot);
         float base = max(0.0, root - difference * difference * (root * scale));
         base *= base;
-        float tapWeight = base * base * pixelAreas[place];
+        vec4 tap = unpackLight(pixelLights[place]);
+        float tapWeight = base * base * tap.a;
         if (separateMaterials) {
             tapWeight = exchanges(pixelMaterials[place], material) ? tapWeight : 0.0;
         }
-        lightAndArea += tapWeight * vec4(unpackLight(pixelLights[place]).rgb, 1.0);
+        lightAndArea += tapWeight * vec4(tap.rgb, 1.0);
     }
     add(sum, weight, surfaceSeen(lightAndArea));
 }

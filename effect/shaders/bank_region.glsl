@@ -35,11 +35,10 @@ const int pairCount = pairPitch * (regionSize.y + 2);
 const int pixelCount = 2 * pairCount;
 const int ringCount = 2 * (regionSize.x + 2 + regionSize.y);
 
-// The region's pixels with one around: light, and 1 where a pixel gives light; depth, 0 where there is none.
+// The region's pixels with one around: light, and what weighs it, 0 where a pixel gives none: in edge regions the area of its
+// surface relative to one that faces the camera, else 1; depth, 0 where there is none.
 shared uvec2 pixelLights[pixelCount];
 shared float pixelDepths[isEdge ? pixelCount : 1];
-// Of the surface, relative to one that faces the camera; 0 where a pixel gives no light.
-shared float pixelAreas[isEdge ? pixelCount : 1];
 shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
 // Of level 1's texels as reduced: their first two words, light and area; in smooth regions light times mass, and mass.
 shared uvec2 fineLights[fineCount];
@@ -154,11 +153,10 @@ vec3 fetchLight(ivec2 local) {
 void storePixel(int index, vec3 light, float depth, float area, uint material) {
     bool receives = material != 0u && (!isEdge || depth > 0.0);
     bool gives = receives && (!isEdge || isFinite(light)); // what is not, is in no smooth region
-    uvec2 words = uvec2(packHalf2x16(min(light.rg, vec2(maxHalf))), packHalf2x16(vec2(min(light.b, maxHalf), 1.0)));
+    uvec2 words = uvec2(packHalf2x16(min(light.rg, vec2(maxHalf))), packHalf2x16(vec2(min(light.b, maxHalf), isEdge ? area : 1.0)));
     pixelLights[index] = gives ? words : uvec2(0u);
     if (isEdge) {
         pixelDepths[index] = receives ? depth : 0.0;
-        pixelAreas[index] = gives ? area : 0.0;
     }
     if (isEdge && separateMaterials) {
         pixelMaterials[index] = material;
