@@ -76,8 +76,8 @@ LevelGrid coarser(LevelGrid grid) {
 
 // Where a thread's pixels lie between four texels of a level.
 struct Corner {
-    int place;     // in shared memory, of the texel up and left of the first pixel
-    vec2 fraction; // of that pixel, towards the next texels
+    int place;     // in shared memory, of the texel up and left of them
+    vec2 fraction; // of their middle, towards the next texels
     float step;    // from a pixel to the next
 };
 
@@ -87,7 +87,7 @@ Corner cornerOf(LevelGrid grid, int level, ivec2 region, ivec2 local) {
     // In px from the middle of levelFirst on.
     ivec2 beyond = local + (region + (grid.width >> 1) & last);
     ivec2 texel = beyond >> level;
-    vec2 fraction = fma(vec2(beyond & last), vec2(grid.step), vec2(0.5 * grid.step));
+    vec2 fraction = fma(vec2(beyond & last), vec2(grid.step), vec2(0.5 * float(ownSide) * grid.step));
     return Corner(placeOf(grid.places) + texel.y * levelPitch + texel.x, fraction, grid.step);
 }
 

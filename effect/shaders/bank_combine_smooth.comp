@@ -144,30 +144,31 @@ void addIdentity(inout Sum sum, vec3 weight, ivec2 texel) {
     addWhole(sum, max(weight, vec3(bankLeastIdentity)), lights);
 }
 
-// Adds a level with bilinear weights, from 2 on, where the quad's pixels lie between the same four texels.
-void addPlainLevel(inout Sum sum, vec3 weight, Corner corner) {
+// A level from 2 on as a quad sees it, whose pixels lie between the same four texels: light times mass, and mass.
+struct Seen {
+    vec4 middle;  // of the quad
+    Light slopeX; // from a texel to the next
+    Light slopeY;
+};
+
+// With bilinear weights.
+Seen plainLevel(Corner corner) {
     int below = corner.place + levelPitch;
-    Real2 first = Real2(corner.fraction);
-    Real2 next = first + Real(corner.step);
-    Light upperLeft = storedLight(levelLights[corner.place]);
-    Light lowerLeft = storedLight(levelLights[below]);
-    Light upperSlope = storedLight(levelLights[corner.place + 1]) - upperLeft;
-    Light lowerSlope = storedLight(levelLights[below + 1]) - lowerLeft;
-    Light lights[4];
-    [[unroll]] for (int x = 0; x < 2; ++x) {
-        Real fraction = x == 0 ? first.x : next.x;
-        Light upper = fma(Light(fraction), upperSlope, upperLeft);
-        Light slope = fma(Light(fraction), lowerSlope, lowerLeft) - upper;
-        lights[x] = fma(Light(first.y), slope, upper);
-        lights[x + 2] = fma(Light(next.y), slope, upper);
-    }
-    addKernel(sum, weight, lights);
+    Real2 fraction = Real2(corner.fraction);
+    Light upper = storedLight(levelLights[corner.place]);
+    Light lower = storedLight(levelLights[below]);
+    Light upperSlope = storedLight(levelLights[corner.place + 1]) - upper;
+    Light lowerSlope = storedLight(levelLights[below + 1]) - lower;
+    upper = fma(Light(fraction.x), upperSlope, upper);
+    Light slopeY = fma(Light(fraction.x), lowerSlope, lower) - upper;
+    return Seen(vec4(fma(Light(fraction.y), slopeY, upper)), fma(Light(fraction.y), lowerSlope - upperSlope, upperSlope),
+                slopeY);
 }
 
-// The same with depth weights, and a share of the level, that the quad's pixels have in common: those at its middle.
-void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, float depth) {
+// With depth weights. `share`: how much of the level there is at the quad's depth, [0, 1].
+Seen weightedLevel(int level, Corner corner, float depth, out float share) {
     float scale = levelScale(level, depth);
-    vec2 middle = corner.fraction + 0.5 * corner.step;
+    vec2 fraction = corner.fraction;
     vec4 taps[4];
     float total = 0.0;
     float away = 0.0;
@@ -176,38 +177,57 @@ void addWeightedLevel(inout Sum sum, vec3 weight, int level, Corner corner, floa
         float distance = levelDepths[place] - depth;
         float tapWeight = depthWeight(distance, scale);
         taps[i] = tapWeight * levelLight(levelLights[place]);
-        tapWeight *= ((i & 1) == 0 ? 1.0 - middle.x : middle.x) * (i < 2 ? 1.0 - middle.y : middle.y);
+        tapWeight *= ((i & 1) == 0 ? 1.0 - fraction.x : fraction.x) * (i < 2 ? 1.0 - fraction.y : fraction.y);
         total += tapWeight;
         away += tapWeight * distance;
     }
-    vec2 fraction = corner.fraction;
-    vec4 lights[4];
-    [[unroll]] for (int x = 0; x < 2; ++x) {
-        vec4 upper = mix(taps[0], taps[1], fraction.x);
-        vec4 slope = mix(taps[2], taps[3], fraction.x) - upper;
-        lights[x] = upper + fraction.y * slope;
-        lights[x + 2] = upper + (fraction.y + corner.step) * slope;
-        fraction.x += corner.step;
-    }
-    addPartial(sum, weight * levelShare(total, away, scale), lights);
+    share = levelShare(total, away, scale);
+    vec4 upper = mix(taps[0], taps[1], fraction.x);
+    vec4 lower = mix(taps[2], taps[3], fraction.x);
+    return Seen(mix(upper, lower, fraction.y), Light(mix(taps[1] - taps[0], taps[3] - taps[2], fraction.y)),
+                Light(lower - upper));
 }
 
-// `local`: the quad's first pixel, counted from the region's. Levels without a weight are not asked for it.
-void addCoarseLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth) {
+// How the mean light, of a level of which a mass is there, changes from a texel to the next.
+vec3 meanSlope(Light slope, vec4 middle) {
+    return vec3(slope.rgb) - middle.rgb * (float(slope.a) / max(middle.a, bankLeastWeight));
+}
+
+// Begins a quad's sum with the coarse levels: once for its four pixels, while they have no light of their own yet, which takes
+// fewer registers. `local`: the first of them, counted from the region's. Levels without a weight are not asked for it.
+Sum sumCoarseLevels(Mixture mixture, uint used, ivec2 region, ivec2 local, float depth) {
     uint rough = roughLevels;
     LevelGrid grid = finestGrid;
+    vec3 light = vec3(0.0);
+    vec3 stepX = vec3(0.0); // from a pixel to the next
+    vec3 stepY = vec3(0.0);
+    Sum sum = noSum();
     [[dont_unroll]] for (int level = 2; level <= bankLevels; ++level) {
         if ((used >> level & 2u) != 0u) {
             vec3 weight = kernelWeight(mixture, level + 1);
             Corner corner = cornerOf(grid, level, region, local);
+            Seen seen;
+            float share = 1.0;
             if ((rough >> level & 1u) == 0u) {
-                addPlainLevel(sum, weight, corner);
+                seen = plainLevel(corner);
             } else {
-                addWeightedLevel(sum, weight, level, corner, depth);
+                seen = weightedLevel(level, corner, depth, share);
+            }
+            weight *= share;
+            light += weight * seen.middle.rgb;
+            sum.mass += weight * seen.middle.a;
+            if (level <= bankSlopeLevels) {
+                weight *= corner.step;
+                stepX += weight * meanSlope(seen.slopeX, seen.middle);
+                stepY += weight * meanSlope(seen.slopeY, seen.middle);
             }
         }
         grid = coarser(grid);
     }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        sum.light[i] = light + (float(i & 1) - 0.5) * stepX + (float(i >> 1) - 0.5) * stepY;
+    }
+    return sum;
 }
 
 // A texel of level 1, as reduced, without the surface's area: light times mass, and mass.
@@ -345,7 +365,7 @@ void main() {
         vec2 beside = besideOf(quad.word);
         Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
         uint used = usedKernels(mixture);
-        Sum sum = noSum();
+        Sum sum = sumCoarseLevels(mixture, used, region.first, 2 * texel, quad.depth);
         addIdentity(sum, kernelWeight(mixture, 0), texel);
         Light lights[4];
         filterPixels(lights, texel, beside);
@@ -354,7 +374,6 @@ void main() {
             filterFinestLevel(lights, texel, beside);
             addKernel(sum, kernelWeight(mixture, 2), lights);
         }
-        addCoarseLevels(sum, mixture, used, region.first, 2 * texel, quad.depth);
         storeGroup(first, members, material, mixture.strength, sum);
     }
     if (scattering != 15u) {

@@ -64,3 +64,6 @@ const int bankMostEdgeParts = 2;
 // A pixel's own light weighs at least this: where hardly any of the other kernels is on its surface, its light stays.
 // Without, such a pixel can be black.
 const float bankLeastIdentity = 1.0f / 1024.0f;
+// In smooth regions the four pixels of a 2x2 block read coarse levels once, in their middle, and differ only by the slopes of the
+// levels from 2 to this one. With 2: −0.1 dB, −0.7 on a plane at 60 px; with 6: 0.7 us more on tilted sheets (1920x1080, NVIDIA H200).
+const int bankSlopeLevels = 3;

@@ -45,6 +45,12 @@ template <typename Texel> struct TwinLevel {
     const Texel& nearest(int x, int y) const { return *at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)); }
 };
 
+/// A place in the image, px; a pixel's middle is at a half.
+struct PixelPlace {
+    double x = 0;
+    double y = 0;
+};
+
 class BankTwin {
 public:
     explicit BankTwin(const ScatterScene& scene, const TwinSettings& settings = {});
@@ -90,8 +96,9 @@ private:
     Seen finest(int x, int y) const;
     Seen finestOnSlope(int x, int y) const;
     Seen pixelsOnSlope(int x, int y) const;
-    Seen plainLevel(int level, int x, int y) const;
-    Seen levelSeen(int level, int x, int y, bool smooth) const;
+    Seen plainLevel(int level, const PixelPlace& place) const;
+    Seen levelSeen(int level, int x, int y, const PixelPlace& place, const Region& region) const;
+    Seen levelOfQuad(int level, int x, int y, const Region& region) const;
     double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);

@@ -30,10 +30,9 @@ struct Corner {
     }
 };
 
-// `x`, `y`: px, a pixel's middle at a half.
-Corner cornerOf(int level, double x, double y) {
-    const double positionX = x / (1 << level) - 0.5;
-    const double positionY = y / (1 << level) - 0.5;
+Corner cornerOf(int level, const PixelPlace& place) {
+    const double positionX = place.x / (1 << level) - 0.5;
+    const double positionY = place.y / (1 << level) - 0.5;
     const double firstX = std::floor(positionX);
     const double firstY = std::floor(positionY);
     return {static_cast<int>(firstX), static_cast<int>(firstY), positionX - firstX, positionY - firstY};
@@ -49,7 +48,7 @@ struct BankTwin::Seen {
 };
 
 // The pixels of a 2x2 quad. In smooth regions they share its depth, for their weights and their texels' depth weights,
-// and a kernel's mass.
+// and a kernel's mass; and what they see of a coarse level, but for its slopes.
 void BankTwin::combineQuad(int firstX, int firstY, const Region& region) {
     const bool smooth = region.smooth;
     if (raw_[1].at(firstX / 2, firstY / 2)->mass <= 0) {
@@ -65,7 +64,7 @@ void BankTwin::combineQuad(int firstX, int firstY, const Region& region) {
             }
         }
     }
-    for (int kernel = 1; smooth && kernel < bankSize; ++kernel) {
+    for (int kernel = 1; smooth && kernel <= 2; ++kernel) {
         double mass = 0;
         for (const auto& pixel : seen) {
             mass += 0.25 * pixel[kernel].mass;
@@ -102,11 +101,27 @@ BankTwin::Seen BankTwin::seenBy(int kernel, int x, int y, const Region& region) 
     case 2:
         return smooth ? finestOnSlope(x, y) : finest(x, y);
     default:
-        if ((region.roughLevels >> (kernel - 1) & 1) == 0) {
-            return plainLevel(kernel - 1, x, y);
-        }
-        return levelSeen(kernel - 1, x, y, smooth);
+        return smooth ? levelOfQuad(kernel - 1, x, y, region) : levelSeen(kernel - 1, x, y, {x + 0.5, y + 0.5}, region);
     }
+}
+
+// A coarse level as a pixel of a smooth region sees it: from its quad's middle, and on the finer ones of them the
+// pixel's own light by how the mean light changes there.
+BankTwin::Seen BankTwin::levelOfQuad(int level, int x, int y, const Region& region) const {
+    const PixelPlace middle{x / 2 * 2 + 1.0, y / 2 * 2 + 1.0};
+    const Seen seen = levelSeen(level, x, y, middle, region);
+    if (level > constants::bankSlopeLevels) {
+        return seen;
+    }
+    Seen result = seen;
+    for (const PixelPlace& toPixel : {PixelPlace{x + 0.5 - middle.x, 0}, PixelPlace{0, y + 0.5 - middle.y}}) {
+        const Seen there = levelSeen(level, x, y, {middle.x + toPixel.x, middle.y + toPixel.y}, region);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double mean = seen.light[channel] / std::max<double>(seen.mass, constants::bankLeastWeight);
+            result.light[channel] += there.light[channel] - seen.light[channel] - mean * (there.mass - seen.mass);
+        }
+    }
+    return result;
 }
 
 void BankTwin::combinePixel(int x, int y, bool smooth, std::span<const Seen, bankSize> seen) {
@@ -231,8 +246,8 @@ BankTwin::Seen BankTwin::pixels(int x, int y) const {
 }
 
 // A level read with bilinear weights alone.
-BankTwin::Seen BankTwin::plainLevel(int level, int x, int y) const {
-    const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
+BankTwin::Seen BankTwin::plainLevel(int level, const PixelPlace& place) const {
+    const Corner corner = cornerOf(level, place);
     Seen seen;
     for (int i = 0; i < 4; ++i) {
         const BlurredTexel& tap = blurred_[level].nearest(corner.x + i % 2, corner.y + i / 2);
@@ -252,12 +267,17 @@ const BlurredTexel& BankTwin::nearerSurface(int level, int x, int y, double dept
     return second.depth > 0 && std::abs(second.depth - depth) < std::abs(first.depth - depth) ? second : first;
 }
 
-BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, bool smooth) const {
+// A coarse level at a place in or beside a pixel, as that pixel or its quad sees it.
+BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, const PixelPlace& place, const Region& region) const {
+    if ((region.roughLevels >> level & 1) == 0) {
+        return plainLevel(level, place);
+    }
+    const bool smooth = region.smooth;
     const double depth = depthOf(x, y, smooth);
     const double width = texelWidth(level, depth);
-    const Corner corner = cornerOf(level, x + 0.5, y + 0.5);
+    const Corner corner = cornerOf(level, place);
     // What the level's share is taken at: in smooth regions the middle of the quad, which lies between the same texels.
-    const Corner middle = smooth ? cornerOf(level, x / 2 * 2 + 1, y / 2 * 2 + 1) : corner;
+    const Corner middle = smooth ? cornerOf(level, {x / 2 * 2 + 1.0, y / 2 * 2 + 1.0}) : corner;
     Seen seen;
     double total = 0;
     double away = 0; // of the texels' surface from the pixel's, mm
