@@ -38,7 +38,7 @@ constexpr std::uint32_t cellSize = 32;   // px, 2x2 tiles, of which the pyramid 
 constexpr VkExtent2D regionSize{32, 16}; // px, bank_region.glsl
 constexpr VkExtent2D blurBlock{16, 8};   // texels, bank_blur.comp
 constexpr std::uint32_t blurThreads = blurBlock.width * blurBlock.height;
-constexpr std::uint32_t coarsestBlurRows = 2;
+constexpr VkExtent2D coarsestBlurBlock{6, 2};
 constexpr std::uint32_t cellTexels = 341; // levels 1 … 5
 
 std::uint32_t ratioUp(std::uint32_t value, std::uint32_t divisor) {
@@ -70,8 +70,8 @@ std::uint32_t listCount(VkExtent2D area) {
 // Workgroups that blur a level.
 std::uint32_t blockCount(VkExtent2D area, int level) {
     const VkExtent2D extent = levelExtent(area, level);
-    const std::uint32_t rows = level == bankLevels ? coarsestBlurRows : blurBlock.height;
-    return ratioUp(extent.width, blurBlock.width) * ratioUp(extent.height, rows);
+    const VkExtent2D block = level == bankLevels ? coarsestBlurBlock : blurBlock;
+    return ratioUp(extent.width, block.width) * ratioUp(extent.height, block.height);
 }
 
 // One workgroup per block of any level and for the lists, in rows of at most bankDispatchWidth.

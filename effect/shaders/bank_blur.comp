@@ -1,5 +1,5 @@
 // Pass B of `bank`: blurs the levels from 2 on along the surface with a 5x5 binomial, 16x8 texels a workgroup, of the
-// coarsest level 16x2, at most one a thread; all levels in one dispatch, coarsest first (the few coarse workgroups would
+// coarsest level 6x2, at most one a thread; all levels in one dispatch, coarsest first (the few coarse workgroups would
 // else be a serial tail); lists the regions that hold subsurface pixels for pass C. docs/scatter.md.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,8 +11,9 @@ layout(local_size_x = 16, local_size_y = 8) in;
 
 const int threads = 128;
 const ivec2 blockSize = ivec2(16, 8);
-const int coarsestRows = 2; // of a block of the coarsest level, each of whose texels is reduced from sixteen
-const int reach = 2;        // of the kernels, texels
+// Of the coarsest level, whose texels are reduced twice: as many as have their children in the room of a block of the level before.
+const ivec2 coarsestSize = ivec2(6, 2);
+const int reach = 2; // of the kernels, texels
 const int pitch = blockSize.x + 2 * reach;
 const int loadedCount = pitch * (blockSize.y + 2 * reach);
 
@@ -28,7 +29,7 @@ shared uint rough; // bits of roughness
 struct Block {
     int level;
     ivec2 first; // texel
-    int rows;
+    ivec2 size;
 };
 
 // The levels' blocks, counted from the coarsest level on.
@@ -39,15 +40,16 @@ Block findBlock(int group) {
     }
     ivec4 place = parameters.bankLevels[level];
     int index = group - place.w;
-    int width = (place.y + blockSize.x - 1) / blockSize.x;
+    bool isCoarsest = level == bankLevels;
+    int width = isCoarsest ? (place.y + coarsestSize.x - 1) / coarsestSize.x : (place.y + blockSize.x - 1) / blockSize.x;
     int row = int((float(index) + 0.5) / float(width));
-    int rows = level == bankLevels ? coarsestRows : blockSize.y;
-    return Block(level, ivec2(index - row * width, row) * ivec2(blockSize.x, rows), rows);
+    ivec2 size = isCoarsest ? coarsestSize : blockSize;
+    return Block(level, ivec2(index - row * width, row) * size, size);
 }
 
-// Rows of texels of a block and around it.
-int loadedRows(Block block) {
-    return block.rows + 2 * reach;
+// Texels of a block and around it.
+ivec2 loadedSize(Block block) {
+    return block.size + 2 * reach;
 }
 
 // Bits of a block: texels with a step beside them or pixels left out; texels that are not wholly covered; any that are
@@ -74,7 +76,7 @@ bool isStepBetween(float a, float b, float limit) {
 
 // … and of a 2x2 block of texels, between them and beside them, right and below.
 uint roughnessBetween(Block from, ivec2 first) {
-    ivec2 last = ivec2(pitch, loadedRows(from)) - 1;
+    ivec2 last = loadedSize(from) - 1;
     float block[3][3];
     [[unroll]] for (int y = 0; y < 3; ++y) {
         [[unroll]] for (int x = 0; x < 3; ++x) {
@@ -99,11 +101,11 @@ void noteRoughness(uint roughness) {
     }
 }
 
-#include "bank_blur_load.glsl"
-
 RawTexel texelAt(int index) {
     return unpackRaw(uvec4(lights[index], floatBitsToUint(depths[index]), massesAndMaterials[index]));
 }
+
+#include "bank_blur_load.glsl"
 
 // Whether the texel at `neighbor` is a surface further from `depth` than a smooth one's neighbour would be.
 bool isStep(int neighbor, float depth, float limit) {
@@ -222,7 +224,7 @@ const BlurredTexel emptyBlurred = BlurredTexel(vec3(0.0), 0.0, 0.0, 0u, false, t
 
 void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
     ivec2 texel = block.first + local;
-    if (local.y >= block.rows || any(greaterThanEqual(texel, levelExtent(block.level)))) {
+    if (any(greaterThanEqual(local, block.size)) || any(greaterThanEqual(texel, levelExtent(block.level)))) {
         return;
     }
     int index = blurredIndex(texelIndex(block.level, texel));
@@ -288,12 +290,13 @@ void main() {
     if (secondLevels > 0 && block.level <= rawLevels && (rough & anySecond) != 0u) {
         loadSeconds(block, thread);
     }
-    if (thread < pitch * loadedRows(block) / 4) {
-        int row = thread / (pitch / 2);
-        noteRoughness(roughnessBetween(block, 2 * ivec2(thread - row * (pitch / 2), row)));
+    int row = thread / (pitch / 2);
+    ivec2 pair = 2 * ivec2(thread - row * (pitch / 2), row);
+    if (all(lessThan(pair, loadedSize(block)))) {
+        noteRoughness(roughnessBetween(block, pair));
     }
     barrier();
-    if (local.y >= block.rows) {
+    if (any(greaterThanEqual(local, block.size))) {
         return;
     }
     int center = sharedIndex(local + reach);

@@ -43,7 +43,7 @@ void loadBlock(Block block, int thread) {
     uint roughness = 0u;
     [[unroll]] for (int i = 0; i < loadSteps; ++i) {
         ivec2 place = loadedPlace(thread + i * threads);
-        if (place.y < loadedRows(block)) {
+        if (place.y < loadedSize(block).y) {
             storeShared(place, words[i]);
             roughness |= roughnessOf(words[i]);
         }
@@ -55,7 +55,7 @@ void loadBlock(Block block, int thread) {
 void loadSeconds(Block block, int thread) {
     [[unroll]] for (int i = 0; i < loadSteps; ++i) {
         ivec2 place = loadedPlace(thread + i * threads);
-        if (place.y < loadedRows(block)) {
+        if (place.y < loadedSize(block).y) {
             uint word = massesAndMaterials[sharedIndex(place)];
             storeSharedSecond(place, secondWords(block.level, block.first - reach + place, word));
         }
@@ -64,7 +64,7 @@ void loadSeconds(Block block, int thread) {
 
 // Of the texels around a block only those inside it are this workgroup's to store.
 bool isOwn(Block block, ivec2 texel) {
-    ivec2 last = min(block.first + ivec2(blockSize.x, block.rows), levelExtent(block.level));
+    ivec2 last = min(block.first + block.size, levelExtent(block.level));
     return all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last));
 }
 
@@ -83,27 +83,48 @@ RawTexel reducedTexel(int level, ivec2 texel) {
     return reduceTexels(children, level);
 }
 
-RawTexel coarseTexel(int level, ivec2 texel) {
-    if (level == rawLevels + 1) {
-        return reducedTexel(level, texel);
+// The coarsest level's texels from their children, which are loaded.
+void reduceToCoarsest(Block block, int thread) {
+    ivec2 size = loadedSize(block);
+    ivec2 place = ivec2(thread % size.x, thread / size.x);
+    ivec2 texel = block.first - reach + place;
+    bool isLoaded = place.y < size.y;
+    uvec4 words = uvec4(0u);
+    if (isLoaded && texel == clamp(texel, ivec2(0), levelExtent(bankLevels) - 1)) {
+        RawTexel children[4];
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            children[i] = texelAt(sharedIndex(2 * place + ivec2(i & 1, i >> 1)));
+        }
+        words = packRaw(reduceTexels(children, bankLevels));
     }
-    RawTexel children[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        children[i] = reducedTexel(level - 1, 2 * texel + ivec2(i & 1, i >> 1));
-    }
-    return reduceTexels(children, level);
-}
-
-void loadCoarseBlock(Block block, int thread) {
-    ivec2 extent = levelExtent(block.level);
-    for (int index = thread; index < pitch * loadedRows(block); index += threads) {
-        ivec2 place = loadedPlace(index);
-        ivec2 texel = block.first - reach + place;
-        bool inside = texel == clamp(texel, ivec2(0), extent - 1);
-        uvec4 words = inside ? packRaw(coarseTexel(block.level, texel)) : uvec4(0u);
+    barrier();
+    if (isLoaded) {
         storeShared(place, words);
         storeOwn(block, texel, words);
         noteRoughness(roughnessOf(words));
+    }
+}
+
+// Of the level after pass A's, and of the coarsest one, for which the former is reduced first.
+void loadCoarseBlock(Block block, int thread) {
+    const int level = rawLevels + 1;
+    bool isCoarsest = block.level == bankLevels;
+    ivec2 first = (block.first - reach) * (isCoarsest ? 2 : 1);
+    ivec2 extent = levelExtent(level);
+    for (int index = thread; index < loadedCount; index += threads) {
+        ivec2 place = loadedPlace(index);
+        ivec2 texel = first + place;
+        bool inside = texel == clamp(texel, ivec2(0), extent - 1);
+        uvec4 words = inside ? packRaw(reducedTexel(level, texel)) : uvec4(0u);
+        storeShared(place, words);
+        if (!isCoarsest) {
+            storeOwn(block, texel, words);
+            noteRoughness(roughnessOf(words));
+        }
+    }
+    if (isCoarsest) {
+        barrier();
+        reduceToCoarsest(block, thread);
     }
 }
 
@@ -129,7 +150,7 @@ Surfaces reducedSurfaces(int level, ivec2 texel) {
 
 void loadSecondsBlock(Block block, int thread) {
     ivec2 extent = levelExtent(block.level);
-    for (int index = thread; index < pitch * loadedRows(block); index += threads) {
+    for (int index = thread; index < loadedCount; index += threads) {
         ivec2 place = loadedPlace(index);
         ivec2 texel = block.first - reach + place;
         uvec4 words = uvec4(0u);

@@ -8,12 +8,18 @@
 namespace nacre::tests {
 namespace {
 
-constexpr int tileSize = 32;   // px, as in effect/scatter_bank.cpp
-constexpr int blockWidth = 16; // of pass B, texels
-constexpr int blockHeight = 8;
-constexpr int coarsestRows = 2; // of a block of the coarsest level
-constexpr int partWidth = 16;   // of pass C's edge regions, px; its smooth ones are 2x2 of them
+constexpr int tileSize = 32;  // px, as in effect/scatter_bank.cpp
+constexpr int partWidth = 16; // of pass C's edge regions, px; its smooth ones are 2x2 of them
 constexpr int partHeight = 8;
+
+// Of pass B, texels.
+struct BlockSize {
+    int width, height;
+};
+
+BlockSize blockSizeOf(int level) {
+    return level == bankLevels ? BlockSize{6, 2} : BlockSize{16, 8};
+}
 
 // What a 2x2 block of texels becomes: those of one surface. Levels that keep a second surface have up to eight.
 struct Block {
@@ -194,18 +200,19 @@ void BankTwin::blurLevel(int level) {
     to.height = raw_[level].height;
     to.texels.resize(raw_[level].texels.size());
     blurredSeconds_[level] = to;
-    const int rows = level == bankLevels ? coarsestRows : blockHeight;
-    for (int y = 0; y < to.height; y += rows) {
-        for (int x = 0; x < to.width; x += blockWidth) {
-            blurBlock(level, x, y, rows);
+    const BlockSize block = blockSizeOf(level);
+    for (int y = 0; y < to.height; y += block.height) {
+        for (int x = 0; x < to.width; x += block.width) {
+            blurBlock(level, x, y);
         }
     }
 }
 
 // Whether every texel within reach of a block is full, with nothing left out and no step between two of them.
-bool BankTwin::isWhole(int level, int firstX, int firstY, int rows) const {
-    const int endX = firstX + blockWidth + 2;
-    const int endY = firstY + rows + 2;
+bool BankTwin::isWhole(int level, int firstX, int firstY) const {
+    const BlockSize block = blockSizeOf(level);
+    const int endX = firstX + block.width + 2;
+    const int endY = firstY + block.height + 2;
     for (int y = firstY - 2; y < endY; ++y) {
         for (int x = firstX - 2; x < endX; ++x) {
             const RawTexel* texel = raw_[level].at(x, y);
@@ -225,11 +232,12 @@ bool BankTwin::isWhole(int level, int firstX, int firstY, int rows) const {
 }
 
 // In a whole block nothing is missing of a kernel, however steep it stands.
-void BankTwin::blurBlock(int level, int firstX, int firstY, int rows) {
+void BankTwin::blurBlock(int level, int firstX, int firstY) {
     TwinLevel<BlurredTexel>& to = blurred_[level];
-    const bool whole = isWhole(level, firstX, firstY, rows);
-    for (int y = firstY; y < std::min(firstY + rows, to.height); ++y) {
-        for (int x = firstX; x < std::min(firstX + blockWidth, to.width); ++x) {
+    const BlockSize block = blockSizeOf(level);
+    const bool whole = isWhole(level, firstX, firstY);
+    for (int y = firstY; y < std::min(firstY + block.height, to.height); ++y) {
+        for (int x = firstX; x < std::min(firstX + block.width, to.width); ++x) {
             BlurredTexel& texel = to.texels[static_cast<std::size_t>(y) * to.width + x];
             texel = blurTexel(level, x, y);
             if (whole) {

@@ -75,8 +75,8 @@ private:
     TwinLevel<RawTexel> reduced(const TwinLevel<RawTexel>& from, int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
-    bool isWhole(int level, int firstX, int firstY, int rows) const;
-    void blurBlock(int level, int firstX, int firstY, int rows);
+    bool isWhole(int level, int firstX, int firstY) const;
+    void blurBlock(int level, int firstX, int firstY);
     bool isStep(int level, int x, int y, int besideX, int besideY) const;
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
