@@ -66,7 +66,9 @@ uint loadRegion(Region region, int thread, ivec2 local) {
     if (!readsOccupied(region)) {
         fineWords = isOccupied(region, fineTexel) ? fineWords : uvec4(0u);
         own.quadWord = isOccupied(region, local >> 1) ? own.quadWord : 0u;
-        ringPixel.quadWord = isOccupied(region, ring >> 1) ? ringPixel.quadWord : 0u;
+        if (!isCoarse && !isOccupied(region, ring >> 1)) {
+            ringPixel.quadWord = 0u;
+        }
     }
     if (thread < fineCount) {
         storeFine(fine, texelPlace, fineWords);
