@@ -53,7 +53,7 @@ Views makeViews(const std::filesystem::path& file) {
     if (scene.materials.empty()) {
         throw std::runtime_error(app::sceneName(options) + ": has no subsurface material to measure");
     }
-    return {litFrom("front", scene, options), litFrom("back", scene, options)};
+    return {litFrom("front", scene, options), litFrom("back", scene, options), litFrom("both", scene, options)};
 }
 
 std::vector<std::shared_ptr<const View>> closeUps(const std::shared_ptr<const View>& view, std::size_t count) {

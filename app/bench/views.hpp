@@ -7,10 +7,12 @@
 
 namespace nacre::bench {
 
-/// The gallery (no file), or a model or scene file, lit from the front and lit from behind, through its first camera.
+/// The gallery (no file), or a model or scene file, lit from the front, from behind and from both, through its first
+/// camera.
 struct Views {
     std::shared_ptr<const View> front;
     std::shared_ptr<const View> back;
+    std::shared_ptr<const View> both;
 };
 Views makeViews(const std::filesystem::path& file);
 
