@@ -43,6 +43,8 @@ const float steepestPlane = 4.0;
 // [1] scale·d of the transmittance table at which nearness is 1/2. Errors for the presets are least here, and grow little
 // from 3 to 12.
 const float nearnessHalf = 6.0;
+// [1] scale·d from which on the transmittance table is 0.
+const float transmittanceEnd = float((1u << transmittanceOctaves) - 1u);
 
 struct Receiver {
     vec3 position; // world space, scene units
@@ -240,10 +242,20 @@ vec3 nodesTransmittance(uint material, mat4 thickness, vec4 columnWeights, vec4 
     return sum;
 }
 
+// Whether light comes through a slab as thick as the thinnest of 4x4: the table ends with 0.
+bool shinesThrough(uint material, mat4 thickness) {
+    vec4 least = min(min(thickness[0], thickness[1]), min(thickness[2], thickness[3]));
+    float thinnest = min(min(least.x, least.y), min(least.z, least.w));
+    return tables[material].scale * thinnest < transmittanceEnd;
+}
+
 // Weighted sum over 4x4 slabs of thicknesses in mm.
 vec3 transmittance(uint material, mat4 thickness, vec4 columnWeights, vec4 rowWeights) {
     if (usesLayers(material)) {
         return layerTransmittance(material, thickness, columnWeights, rowWeights);
+    }
+    if (!shinesThrough(material, thickness)) {
+        return vec3(0.0);
     }
     return nodesTransmittance(material, thickness, columnWeights, rowWeights);
 }
