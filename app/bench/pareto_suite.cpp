@@ -67,7 +67,7 @@ Plan makeParetoPlan(const SuiteSettings& settings) {
     Plan plan{.suite = "pareto", .scene = settings.scene.empty() ? "gallery" : settings.scene.string()};
     const std::span<const Size> sizes = settings.quick ? std::span<const Size>(quickSizes) : fullSizes;
     const std::span<const double> scales = settings.quick ? std::span<const double>(quickScales) : fullScales;
-    const std::vector<std::shared_ptr<const View>> views = closeUps(makeViews(settings.scene).front, closeUpCount);
+    const std::vector<std::shared_ptr<const View>> views = closeUps(makeView(settings.scene, "front"), closeUpCount);
     for (const Size& size : sizes) {
         for (const auto& view : views) {
             for (const double scale : scales) {

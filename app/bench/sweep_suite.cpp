@@ -80,7 +80,7 @@ private:
 
     void addResolutions() {
         Series& series = plan_.series.emplace_back(Series{resolutionVariable, resolutionVariable, "Mpx", {}});
-        const std::shared_ptr<const View> view = makeViews(settings_.scene).both;
+        const std::shared_ptr<const View> view = makeView(settings_.scene, "both");
         for (const Size& size : values_.sizes) {
             add(series, view, size, view->scene->materials, 1e-6 * size.width * size.height);
         }

@@ -12,12 +12,28 @@ namespace {
 
 constexpr float closeUpFieldOfView = 0.35f;
 
-std::shared_ptr<const View> litFrom(const char* side, const scene::Scene& scene, const app::RenderOptions& options) {
+app::RenderOptions optionsOf(const std::filesystem::path& file) {
+    app::RenderOptions options;
+    options.input = file;
+    return options;
+}
+
+// With all of its lights.
+scene::Scene loadScene(const app::RenderOptions& options) {
+    scene::Scene scene = app::makeScene(options);
+    if (scene.materials.empty()) {
+        throw std::runtime_error(app::sceneName(options) + ": has no subsurface material to measure");
+    }
+    return scene;
+}
+
+std::shared_ptr<const View> litFrom(const char* side, scene::Scene scene, const app::RenderOptions& options) {
     app::RenderOptions lit = options;
     lit.lights = {side};
-    auto result = std::make_shared<scene::Scene>(scene);
-    app::chooseLights(lit, *result);
-    return std::make_shared<View>(View{app::sceneName(options) + ", " + side, result, makeCamera(options, *result)});
+    app::chooseLights(lit, scene);
+    const scene::Camera camera = makeCamera(options, scene);
+    return std::make_shared<View>(
+        View{app::sceneName(options) + ", " + side, std::make_shared<scene::Scene>(std::move(scene)), camera});
 }
 
 scene::Bounds boundsOf(const scene::Scene& scene, const scene::Instance& instance) {
@@ -46,14 +62,15 @@ scene::Camera lookAt(const scene::Bounds& bounds, const scene::Camera& from) {
 
 } // namespace
 
+std::shared_ptr<const View> makeView(const std::filesystem::path& file, const char* side) {
+    const app::RenderOptions options = optionsOf(file);
+    return litFrom(side, loadScene(options), options);
+}
+
 Views makeViews(const std::filesystem::path& file) {
-    app::RenderOptions options;
-    options.input = file;
-    const scene::Scene scene = app::makeScene(options);
-    if (scene.materials.empty()) {
-        throw std::runtime_error(app::sceneName(options) + ": has no subsurface material to measure");
-    }
-    return {litFrom("front", scene, options), litFrom("back", scene, options), litFrom("both", scene, options)};
+    const app::RenderOptions options = optionsOf(file);
+    scene::Scene scene = loadScene(options);
+    return {litFrom("front", scene, options), litFrom("back", std::move(scene), options)};
 }
 
 std::vector<std::shared_ptr<const View>> closeUps(const std::shared_ptr<const View>& view, std::size_t count) {

@@ -7,12 +7,14 @@
 
 namespace nacre::bench {
 
-/// The gallery (no file), or a model or scene file, lit from the front, from behind and from both, through its first
-/// camera.
+/// The gallery (no file), or a model or scene file, through its first camera, with the lights of a side: "front",
+/// "back" or "both".
+std::shared_ptr<const View> makeView(const std::filesystem::path& file, const char* side);
+
+/// It, lit from the front and lit from behind.
 struct Views {
     std::shared_ptr<const View> front;
     std::shared_ptr<const View> back;
-    std::shared_ptr<const View> both;
 };
 Views makeViews(const std::filesystem::path& file);
 
