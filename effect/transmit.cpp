@@ -29,7 +29,7 @@ void setLayers(TransmitTable& table, std::span<const Layer> layers) {
 void buildTable(const Material&, const Profile& profile, std::span<std::byte> bytes) {
     TransmitTable table{};
     const double end = profile.quantileRadius(1 - tableEndShare);
-    const double scale = (std::exp2(transmittanceOctaves) - 1) / end;
+    const double scale = transmittanceEnd / end;
     table.scale = static_cast<float>(scale);
     if (const auto* layered = dynamic_cast<const SumOfGaussiansProfile*>(&profile)) {
         setLayers(table, layered->layers());

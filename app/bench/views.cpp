@@ -27,10 +27,9 @@ scene::Scene loadScene(const app::RenderOptions& options) {
     return scene;
 }
 
-std::shared_ptr<const View> litFrom(const char* side, scene::Scene scene, const app::RenderOptions& options) {
-    app::RenderOptions lit = options;
-    lit.lights = {side};
-    app::chooseLights(lit, scene);
+std::shared_ptr<const View> litFrom(const char* side, scene::Scene scene, app::RenderOptions options) {
+    options.lights = {side};
+    app::chooseLights(options, scene);
     const scene::Camera camera = makeCamera(options, scene);
     return std::make_shared<View>(
         View{app::sceneName(options) + ", " + side, std::make_shared<scene::Scene>(std::move(scene)), camera});

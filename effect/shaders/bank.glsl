@@ -134,6 +134,10 @@ ivec2 levelExtent(int level) {
     return parameters.bankLevels[level].yz;
 }
 
+bool isInLevel(int level, ivec2 texel) {
+    return texel == clamp(texel, ivec2(0), levelExtent(level) - 1);
+}
+
 int tileIndex(ivec2 tile) {
     return tile.y * levelExtent(rawLevels).x + tile.x;
 }

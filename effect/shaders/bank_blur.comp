@@ -40,7 +40,7 @@ Block findBlock(int group) {
     }
     ivec4 place = parameters.bankLevels[level];
     int index = group - place.w;
-    bool isCoarsest = level == bankLevels;
+    bool isCoarsest = level == bankLevels; // asked twice, so that divisors are constants
     int width = isCoarsest ? (place.y + coarsestSize.x - 1) / coarsestSize.x : (place.y + blockSize.x - 1) / blockSize.x;
     int row = int((float(index) + 0.5) / float(width));
     ivec2 size = isCoarsest ? coarsestSize : blockSize;

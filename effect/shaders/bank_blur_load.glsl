@@ -68,10 +68,13 @@ bool isOwn(Block block, ivec2 texel) {
     return all(greaterThanEqual(texel, block.first)) && all(lessThan(texel, last));
 }
 
-void storeOwn(Block block, ivec2 texel, uvec4 words) {
+// What this workgroup has reduced: for its own kernels, and of its own texels for pass C.
+void storeReduced(Block block, ivec2 place, ivec2 texel, uvec4 words) {
+    storeShared(place, words);
     if (isOwn(block, texel)) {
         rawTexels[texelIndex(block.level, texel)] = words;
     }
+    noteRoughness(roughnessOf(words));
 }
 
 // A texel of a level that pass A leaves to this one.
@@ -85,12 +88,12 @@ RawTexel reducedTexel(int level, ivec2 texel) {
 
 // The coarsest level's texels from their children, which are loaded.
 void reduceToCoarsest(Block block, int thread) {
-    ivec2 size = loadedSize(block);
+    const ivec2 size = coarsestSize + 2 * reach;
     ivec2 place = ivec2(thread % size.x, thread / size.x);
     ivec2 texel = block.first - reach + place;
     bool isLoaded = place.y < size.y;
     uvec4 words = uvec4(0u);
-    if (isLoaded && texel == clamp(texel, ivec2(0), levelExtent(bankLevels) - 1)) {
+    if (isLoaded && isInLevel(bankLevels, texel)) {
         RawTexel children[4];
         [[unroll]] for (int i = 0; i < 4; ++i) {
             children[i] = texelAt(sharedIndex(2 * place + ivec2(i & 1, i >> 1)));
@@ -99,9 +102,7 @@ void reduceToCoarsest(Block block, int thread) {
     }
     barrier();
     if (isLoaded) {
-        storeShared(place, words);
-        storeOwn(block, texel, words);
-        noteRoughness(roughnessOf(words));
+        storeReduced(block, place, texel, words);
     }
 }
 
@@ -110,16 +111,14 @@ void loadCoarseBlock(Block block, int thread) {
     const int level = rawLevels + 1;
     bool isCoarsest = block.level == bankLevels;
     ivec2 first = (block.first - reach) * (isCoarsest ? 2 : 1);
-    ivec2 extent = levelExtent(level);
     for (int index = thread; index < loadedCount; index += threads) {
         ivec2 place = loadedPlace(index);
         ivec2 texel = first + place;
-        bool inside = texel == clamp(texel, ivec2(0), extent - 1);
-        uvec4 words = inside ? packRaw(reducedTexel(level, texel)) : uvec4(0u);
-        storeShared(place, words);
-        if (!isCoarsest) {
-            storeOwn(block, texel, words);
-            noteRoughness(roughnessOf(words));
+        uvec4 words = isInLevel(level, texel) ? packRaw(reducedTexel(level, texel)) : uvec4(0u);
+        if (isCoarsest) {
+            storeShared(place, words);
+        } else {
+            storeReduced(block, place, texel, words);
         }
     }
     if (isCoarsest) {
@@ -149,23 +148,20 @@ Surfaces reducedSurfaces(int level, ivec2 texel) {
 }
 
 void loadSecondsBlock(Block block, int thread) {
-    ivec2 extent = levelExtent(block.level);
     for (int index = thread; index < loadedCount; index += threads) {
         ivec2 place = loadedPlace(index);
         ivec2 texel = block.first - reach + place;
         uvec4 words = uvec4(0u);
         uvec4 second = uvec4(0u);
-        if (texel == clamp(texel, ivec2(0), extent - 1)) {
+        if (isInLevel(block.level, texel)) {
             Surfaces surfaces = reducedSurfaces(block.level, texel);
             words = packFirst(surfaces);
             second = packRaw(surfaces.second);
         }
-        storeShared(place, words);
+        storeReduced(block, place, texel, words);
         storeSharedSecond(place, second);
-        storeOwn(block, texel, words);
         if ((words.w & secondBit) != 0u && isOwn(block, texel)) {
             secondTexels[texelIndex(block.level, texel)] = second;
         }
-        noteRoughness(roughnessOf(words));
     }
 }

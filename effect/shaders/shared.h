@@ -189,6 +189,7 @@ NACRE_FUNCTION uint thesisKernelStart(uint radius) {
 // profile's layers, for thesisTransmittance: weights, and 1/mm² of variance in w.
 NACRE_CONSTANT transmittanceOctaves = 8;
 NACRE_CONSTANT transmittanceMantissaBits = 4;
+NACRE_CONSTANT transmittanceEnd = (1u << transmittanceOctaves) - 1u; // scale·d where the table ends
 NACRE_CONSTANT transmittanceLast = transmittanceOctaves << transmittanceMantissaBits;
 struct TransmitTable {
     float scale;     // 1/mm

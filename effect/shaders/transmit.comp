@@ -43,8 +43,6 @@ const float steepestPlane = 4.0;
 // [1] scale·d of the transmittance table at which nearness is 1/2. Errors for the presets are least here, and grow little
 // from 3 to 12.
 const float nearnessHalf = 6.0;
-// [1] scale·d from which on the transmittance table is 0.
-const float transmittanceEnd = float((1u << transmittanceOctaves) - 1u);
 
 struct Receiver {
     vec3 position; // world space, scene units
@@ -246,7 +244,7 @@ vec3 nodesTransmittance(uint material, mat4 thickness, vec4 columnWeights, vec4 
 bool shinesThrough(uint material, mat4 thickness) {
     vec4 least = min(min(thickness[0], thickness[1]), min(thickness[2], thickness[3]));
     float thinnest = min(min(least.x, least.y), min(least.z, least.w));
-    return tables[material].scale * thinnest < transmittanceEnd;
+    return tables[material].scale * thinnest < float(transmittanceEnd);
 }
 
 // Weighted sum over 4x4 slabs of thicknesses in mm.
