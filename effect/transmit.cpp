@@ -51,7 +51,7 @@ constexpr Pass passes[] = {
      .file = "transmit",
      .spirv = transmit_spv,
      .reads = bit(Intermediate::NoShadowMap),
-     .grid = tiles<16, 8>},
+     .grid = tiles<8, 16>},
 };
 
 constexpr struct {
