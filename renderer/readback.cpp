@@ -64,15 +64,22 @@ Pixels read(Gpu& gpu, Image& image, const Names& channels) {
             toFloats(image.info().format, downloadImage(gpu, image), channels.size())};
 }
 
-/// The effect's output has the albedo in it; without it, it is the irradiance after scattering.
+/// The irradiance after scattering: where there is a material, the effect's output without the albedo that it has in
+/// it.
 Pixels readScattered(Gpu& gpu, const FrameImages& images) {
+    Pixels pixels = read(gpu, images.lighting.irradiance(), rgb);
     if (!images.scatter) {
-        return read(gpu, images.lighting.irradiance(), rgb);
+        return pixels;
     }
-    Pixels pixels = read(gpu, images.subsurface.scattered(), rgb);
+    const Pixels scattered = read(gpu, images.subsurface.scattered(), rgb);
     const Pixels albedo = read(gpu, images.gbuffer.image(GBuffer::Albedo), rgb);
-    std::transform(pixels.values.begin(), pixels.values.end(), albedo.values.begin(), pixels.values.begin(),
-                   [](float light, float share) { return share > 0 ? light / share : 0.0f; });
+    const Pixels material = read(gpu, images.gbuffer.image(GBuffer::MaterialId), {"ID"});
+    for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+        if (material.values[i / rgb.size()] != 0) {
+            const float share = albedo.values[i];
+            pixels.values[i] = share > 0 ? scattered.values[i] / share : 0.0f;
+        }
+    }
     return pixels;
 }
 

@@ -265,6 +265,7 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     info.normal = convert(normal);
     info.albedo = convert(albedo);
     info.scattered = convert(scattered_);
+    info.skipUnscattered = VK_TRUE; // compose asks the id
     info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ");
     check(nacreCmdScatter(context_.get(), *commandBuffer, &info));
 }

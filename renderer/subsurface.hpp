@@ -27,7 +27,7 @@ public:
     Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
                const std::vector<PlacedLight>& lights);
 
-    /// Scattered light with the albedo in it (RGBA16F); where there is no subsurface material, irradiance times albedo.
+    /// Scattered light with the albedo in it (RGBA16F). Pixels without a material are not written.
     Image& scattered() { return scattered_; }
     /// Transmitted irradiance, without albedo. RGBA16F.
     Image& transmitted() { return transmitted_; }

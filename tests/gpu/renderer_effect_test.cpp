@@ -131,6 +131,29 @@ TEST_F(Effect, StrengthZeroIsTheEffectSwitchedOff) {
     }
 }
 
+TEST_F(Effect, PixelsWithoutAMaterialAreWhatTheyAreWithoutIt) {
+    scene::Scene scene = slab(2, layered(0.5));
+    add(scene, square(0.1f), glm::translate(glm::mat4(1), {0, 0, 0.05f}));
+    scene.lights.push_back(directional({0, 0, -1}, 2));
+    scene.lights[0].castsShadow = false;
+    const renderer::Renderer on = render(scene, effectSettings());
+    const renderer::Renderer off = render(scene, plainSettings());
+    const Pixels id = on.read(Output::Material);
+    std::size_t withMaterial = 0;
+    std::size_t withoutMaterial = 0;
+    for (const Output output : {Output::Scattered, Output::Radiance}) {
+        const Pixels with = on.read(output);
+        const Pixels without = off.read(output);
+        for (std::size_t i = 0; i < with.values.size(); ++i) {
+            const bool hasMaterial = id.values[i / 3] != 0;
+            ++(hasMaterial ? withMaterial : withoutMaterial);
+            ASSERT_TRUE(hasMaterial || with.values[i] == without.values[i]) << i;
+        }
+    }
+    EXPECT_GT(withoutMaterial, 0);
+    EXPECT_GT(withMaterial, 0);
+}
+
 TEST_F(Effect, ColoursAreAppliedOnceWithEitherAlbedoUse) {
     for (const AlbedoUse use : {AlbedoUse::Post, AlbedoUse::PreAndPost}) {
         Material material = layered(0);
