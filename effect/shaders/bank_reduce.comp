@@ -263,7 +263,7 @@ void main() {
         storeSharedSecond(texel.y * side + texel.x, second);
         barrier();
     }
-    for (int level = 2; level <= rawLevels; ++level) {
+    [[unroll]] for (int level = 2; level <= rawLevels; ++level) {
         reduceLevel(level, tile, thread);
         barrier();
     }
