@@ -150,7 +150,7 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
     vec4 tapsY = finestTaps(odd.y);
     int first = fineIndex((local >> 1) + odd - 2);
     vec4 lightAndArea = vec4(0.0);
-    [[unroll]] for (int y = 0; y < 4; ++y) {
+    [[dont_unroll]] for (int y = 0; y < 4; ++y) {
         vec4 rowLightAndArea = vec4(0.0);
         [[unroll]] for (int x = 0; x < 4; ++x) {
             int index = first + y * finePitch + x;
