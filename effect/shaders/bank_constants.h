@@ -13,8 +13,8 @@ const int bankBinCount = 113;
 // t is a texel's width in mm at its depth.
 
 // Reduction: pixels of a 2x2 block further apart in depth than this many texel widths are two surfaces, and the texel
-// keeps the one with more light-receiving area. With 4: −0.5 to +0.2 dB on models at 1920x1080, most where they have least; −0.1 to
-// +0.6 dB at 320x180; 0 on the synthetic scenes, +0.5 on thin bars. With 8: −0.6 to +0.1 dB on models at 1920x1080.
+// keeps the one with more light-receiving area. With 4: −0.7 to +0.2 dB on models at 1920x1080, −0.5 where they have least, 0 to
+// +0.6 dB at 320x180; 0 on the synthetic scenes, +0.5 on some thin bars. With 8: −0.6 to 0 dB on models at 1920x1080.
 const float bankSurfaceSeparation = 6.0f;
 // With second surfaces, texels of the levels up to this one keep the other surface beside that one: what lies closer to the
 // nearest depth is one, the rest the other. With 4: −0.8 and −1.0 dB on the Stanford dragon's front and side at 1920x1080.
