@@ -64,8 +64,7 @@ Pixels read(Gpu& gpu, Image& image, const Names& channels) {
             toFloats(image.info().format, downloadImage(gpu, image), channels.size())};
 }
 
-/// The irradiance after scattering: where there is a material, the effect's output without the albedo that it has in
-/// it.
+/// The irradiance after scattering: where there is a material, the effect's output over the albedo, which it has in it.
 Pixels readScattered(Gpu& gpu, const FrameImages& images) {
     Pixels pixels = read(gpu, images.lighting.irradiance(), rgb);
     if (!images.scatter) {

@@ -1,4 +1,4 @@
-// Reads what every scatter technique must read and writes what it must write, and nothing else.
+// Reads what every scatter technique must read, writes every pixel, as it must where all of them scatter, and does nothing else.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
