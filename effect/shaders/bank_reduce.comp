@@ -10,18 +10,21 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 const int side = tileSize / 2; // texels of level 1
 
-// Level 1 as RawTexel has it; where the tile is not whole, each coarser level then stands at its first child's place.
+// Level 1 as RawTexel has it; where the tile is not one surface, each coarser level then stands at its first child's place.
 shared vec4 lightsAndAreas[side * side];
 shared vec2 depthsAndMasses[side * side]; // mass: negative where pixels were dropped
 shared uint texelMaterials[separateMaterials ? side * side : 1];
-shared vec4 wholeLights[4]; // sums of a whole tile's level 3
-shared float wholeDepths[4];
+shared vec4 surfaceLights[4]; // SurfaceSum of the level 3 of a tile of one surface
+shared vec2 surfaceDepths[4];
 // Of the tile's pixels and one around, mm; 0 where none receives light. As bits, since once level 1 is made its second surfaces
 // stand there, in the words of packRaw: with more shared memory fewer workgroups run at a time.
 const int pitch = tileSize + 2;
 shared uint depths[pitch * pitch];
 shared uint occupied; // whether some pixel has an id
 shared uint roughness; // tileRough of the tile's blocks, and notFull
+// Of a tile that is not whole, nearest and farthest depth of level 1, as bits, whose order is the depths'.
+shared uint nearest;
+shared uint farthest;
 // A pixel of some block is on no surface, or on another than the block's. With second surfaces: some block is not plain.
 const uint notFull = 1u;
 
@@ -121,50 +124,68 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     }
 }
 
-// Sums of a whole tile's texels, which all are full.
-struct WholeSum {
+// Whether one surface is all that a tile holds, with or without holes: no texel of level 1 has left a pixel out or is two, and
+// all lie so close to each other that none of the coarser levels takes them for two. A barrier, for all threads. `place`: a texel
+// a thread.
+bool isOneSurface(int place, bool hasSecond) {
+    vec2 depthAndMass = depthsAndMasses[place];
+    if (depthAndMass.y != 0.0) {
+        bool isTwo = hasSecond || depthAndMass.y < 0.0;
+        atomicMin(nearest, floatBitsToUint(depthAndMass.x));
+        atomicMax(farthest, floatBitsToUint(isTwo ? 1e30 : depthAndMass.x));
+    }
+    barrier();
+    float near = uintBitsToFloat(nearest);
+    return uintBitsToFloat(farthest) - near <= separationAt(2, near);
+}
+
+// Sums of texels of level 1 that all are one surface.
+struct SurfaceSum {
     vec4 lightAndArea;
-    float depth;
+    vec2 depthAndMass; // depth times mass
 };
 
-WholeSum sumTexels(ivec2 first, int span) {
-    WholeSum sum = WholeSum(vec4(0.0), 0.0);
+SurfaceSum noSurface() {
+    return SurfaceSum(vec4(0.0), vec2(0.0));
+}
+
+SurfaceSum sumTexels(ivec2 first, int span) {
+    SurfaceSum sum = noSurface();
     for (int i = 0; i < span * span; ++i) {
         int place = (first.y + i / span) * side + first.x + i % span;
+        vec2 depthAndMass = depthsAndMasses[place];
         sum.lightAndArea += lightsAndAreas[place];
-        sum.depth += depthsAndMasses[place].x;
+        sum.depthAndMass += vec2(depthAndMass.x, 1.0) * depthAndMass.y;
     }
     return sum;
 }
 
 // `share`: of one of the texels of level 1 that were summed.
-void storeMean(int level, ivec2 texel, WholeSum sum, float share) {
+void storeMean(int level, ivec2 texel, SurfaceSum sum, float share) {
     vec4 mean = share * sum.lightAndArea;
-    rawTexels[texelIndex(level, texel)] =
-        packRaw(RawTexel(mean.rgb, mean.a, 1.0, share * sum.depth, 0u, false));
+    float mass = sum.depthAndMass.y;
+    float depth = sum.depthAndMass.x / max(mass, 1e-20);
+    rawTexels[texelIndex(level, texel)] = packRaw(RawTexel(mean.rgb, mean.a, share * mass, depth, 0u, false));
 }
 
-// The coarser levels of a whole tile: levels 2 and 3 at once, by different subgroups, both from level 1. No pixel is missing
-// and no step from pixel to pixel is longer than bankSmoothDepth pixel widths (with second surfaces: bankContinuedStep), so that
-// the four that a texel is made of are no further apart than bankSurfaceSeparation (bankSecondSeparation) times its width: one
-// surface on every level.
-void reduceWholeTile(ivec2 tile, int thread) {
+// The coarser levels of a tile of one surface: levels 2 and 3 at once, by different subgroups, both from level 1.
+void reduceOneSurface(ivec2 tile, int thread) {
     if (thread < 16) {
         ivec2 texel = ivec2(thread & 3, thread >> 2);
         storeMean(2, 4 * tile + texel, sumTexels(2 * texel, 2), 1.0 / 4.0);
     } else if (thread >= 32 && thread < 36) {
         ivec2 texel = ivec2(thread & 1, thread >> 1 & 1);
-        WholeSum sum = sumTexels(4 * texel, 4);
-        wholeLights[thread - 32] = sum.lightAndArea;
-        wholeDepths[thread - 32] = sum.depth;
+        SurfaceSum sum = sumTexels(4 * texel, 4);
+        surfaceLights[thread - 32] = sum.lightAndArea;
+        surfaceDepths[thread - 32] = sum.depthAndMass;
         storeMean(3, 2 * tile + texel, sum, 1.0 / 16.0);
     }
     barrier();
     if (thread == 0) {
-        WholeSum sum = WholeSum(vec4(0.0), 0.0);
+        SurfaceSum sum = noSurface();
         for (int i = 0; i < 4; ++i) {
-            sum.lightAndArea += wholeLights[i];
-            sum.depth += wholeDepths[i];
+            sum.lightAndArea += surfaceLights[i];
+            sum.depthAndMass += surfaceDepths[i];
         }
         storeMean(4, tile, sum, 1.0 / 64.0);
     }
@@ -220,6 +241,8 @@ void main() {
     if (thread == 0) {
         occupied = 0u;
         roughness = 0u;
+        nearest = ~0u;
+        farthest = 0u;
         if (tile == ivec2(0)) {
             clearDispatches();
         }
@@ -255,8 +278,12 @@ void main() {
     if (thread == 0) {
         tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notFull);
     }
-    if (roughness == 0u && !separateMaterials) {
-        reduceWholeTile(tile, thread);
+    // A tile is whole where no pixel is missing and no step from pixel to pixel is longer than bankSmoothDepth pixel widths (with
+    // second surfaces: bankContinuedStep), so that the four that a texel is made of are no further apart than
+    // bankSurfaceSeparation (bankSecondSeparation) times its width: one surface on every level.
+    bool isWhole = roughness == 0u;
+    if (!separateMaterials && (isWhole || isOneSurface(texel.y * side + texel.x, second != uvec4(0u)))) {
+        reduceOneSurface(tile, thread);
         return;
     }
     if (secondLevels > 0) {
