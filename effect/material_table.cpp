@@ -7,11 +7,16 @@
 #include <cstring>
 
 namespace nacre::effect {
+namespace {
+
+constexpr VkDeviceSize leastAlignment = 128; // a line of a cache, of which tables are made (shared.h)
+
+} // namespace
 
 MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
                              const std::array<bool, techniqueCount>& enabled)
     : maxMaterials_(maxMaterials) {
-    const VkDeviceSize alignment = std::max<VkDeviceSize>(device.limits.minStorageBufferOffsetAlignment, 16);
+    const VkDeviceSize alignment = std::max(device.limits.minStorageBufferOffsetAlignment, leastAlignment);
     for (std::size_t i = 0; i < sections_.size(); ++i) {
         const bool isParameters = i == techniqueCount;
         Section& section = sections_[i];

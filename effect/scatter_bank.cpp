@@ -29,7 +29,7 @@ static_assert(constants::bankLevels == bankLevels && constants::bankSize == bank
 static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
               constants::bankBinCount == BankTable::binCount);
 static_assert(BankTable::halvesPerBin == 3 * bankBinWords && bankBinWords == bankSize);
-static_assert(bankTableWords == 1 + bankBinWords * (constants::bankBinCount - 1));
+static_assert(bankTableWords == bankBinWords * constants::bankBinCount);
 
 constexpr std::size_t tableBytes = sizeof(uvec4) * bankTableWords;
 
@@ -119,9 +119,9 @@ void buildTable(const Material& material, const Profile& profile, std::span<std:
     std::array<uvec4, bankTableWords> words{};
     words[0].x = std::bit_cast<std::uint32_t>(table.binOffset());
     words[0].y = std::bit_cast<std::uint32_t>(static_cast<float>(material.strength));
-    for (std::size_t i = 1; i < words.size(); ++i) {
+    for (std::size_t i = bankBinWords; i < words.size(); ++i) {
         words[i] = packWeights(halves, halves + BankTable::halvesPerBin);
-        words[i].w = (i - 1) % bankBinWords == 0 ? usedKernels(halves) : 0;
+        words[i].w = i % bankBinWords == 0 ? usedKernels(halves) : 0;
         halves += 3;
     }
     std::memcpy(bytes.data(), words.data(), sizeof(words));

@@ -35,7 +35,7 @@ Mixture findMixture(uint material, float depth, ivec2 pixel) {
     float position = head.x - float(bankBinsPerOctave) * log2(texelWidth(0, depth / stretchAt(pixel)));
     position = clamp(position, 0.0, float(bankBinCount - 1));
     uint bin = min(uint(position), uint(bankBinCount - 2));
-    return Mixture(first + 1u + bin * bankBinWords, position - float(bin), head.y);
+    return Mixture(first + (bin + 1u) * bankBinWords, position - float(bin), head.y);
 }
 
 const uint finestKernel = 1u << 2; // level 1's bit of usedKernels
