@@ -58,9 +58,9 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
     const auto isNew = [](std::uint32_t slot) { return slot == 0; };
     const std::span<const std::uint32_t> slots = std::span(slots_).subspan(firstId, materials.size());
     const auto added = static_cast<std::uint32_t>(std::count_if(slots.begin(), slots.end(), isNew));
-    if (added > maxMaterials_ - setCount_) {
+    if (added > maxMaterials_ - summary_.slotCount) {
         fail(NACRE_ERROR_LIMIT_EXCEEDED, "firstId is ", firstId, " and count ", materials.size(), ": ",
-             std::uint64_t{setCount_} + added, " materials would be set, NacreContextInfo::maxMaterials is ",
+             std::uint64_t{summary_.slotCount} + added, " materials would be set, NacreContextInfo::maxMaterials is ",
              maxMaterials_);
     }
     std::size_t blockBytes = 0;
@@ -87,7 +87,7 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
     const std::byte* block = blocks.data();
     for (std::uint32_t id = firstId; id < firstId + materials.size(); ++id) {
         if (slots_[id] == 0) {
-            slots_[id] = ++setCount_;
+            slots_[id] = ++summary_.slotCount;
         }
         const std::uint32_t slot = slots_[id];
         for (const Section& section : sections_) {
@@ -101,18 +101,20 @@ void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> ma
             }
         }
     }
-    findSeparate();
+    summarize();
 }
 
-void MaterialTable::findSeparate() {
+void MaterialTable::summarize() {
     const Section& section = sections_.back();
     std::uint32_t common = 0xffffffffu;
-    for (std::uint32_t slot = 1; slot <= setCount_; ++slot) {
+    summary_.havePreAndPost = false;
+    for (std::uint32_t slot = 1; slot <= summary_.slotCount; ++slot) {
         MaterialParameters parameters;
         std::memcpy(&parameters, current_.data() + section.offset + section.stride * slot, sizeof(parameters));
         common &= parameters.exchangeGroups;
+        summary_.havePreAndPost = summary_.havePreAndPost || parameters.preAndPost != 0;
     }
-    haveSeparate_ = common == 0;
+    summary_.haveSeparate = common == 0;
 }
 
 void MaterialTable::update(std::uint32_t index) {
@@ -128,8 +130,7 @@ void MaterialTable::update(std::uint32_t index) {
         frame.isChanged[slot] = false;
     }
     frame.changed.clear();
-    frame.slotCount = setCount_;
-    frame.haveSeparate = haveSeparate_;
+    frame.summary = summary_;
 }
 
 VkDescriptorBufferInfo MaterialTable::range(std::uint32_t frame, const Section& section) const {

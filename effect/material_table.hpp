@@ -38,13 +38,14 @@ public:
         return std::span(current_).subspan(section.offset + section.stride * slots_[id], section.stride);
     }
     bool isSet(std::uint32_t id) const { return id < slots_.size() && slots_[id] != 0; }
-    std::uint32_t setCount() const { return setCount_; }
-    /// How many materials are set in this frame: theirs are the slots 1 …
-    /// slotCount.
-    std::uint32_t slotCount(std::uint32_t frame) const { return frames_[frame].slotCount; }
-    /// Whether, in this frame, some materials may not exchange light: no exchange
-    /// group holds them all.
-    bool haveSeparate(std::uint32_t frame) const { return frames_[frame].haveSeparate; }
+    std::uint32_t setCount() const { return summary_.slotCount; }
+    /// What is known of a frame's materials together.
+    struct Summary {
+        std::uint32_t slotCount = 0; ///< how many are set: theirs are the slots 1 … slotCount
+        bool haveSeparate = false;   ///< some may not exchange light: no exchange group holds them all
+        bool havePreAndPost = false; ///< some have NACRE_ALBEDO_PRE_AND_POST
+    };
+    const Summary& summary(std::uint32_t frame) const { return frames_[frame].summary; }
 
 private:
     /// One array in the buffer: `head` bytes, then `stride` bytes a slot; slot 0
@@ -58,20 +59,18 @@ private:
         Buffer buffer;
         std::vector<std::uint32_t> changed; ///< ids, capacity for all
         std::vector<bool> isChanged;        ///< by slot
-        std::uint32_t slotCount = 0;
-        bool haveSeparate = false;
+        Summary summary;
     };
     VkDescriptorBufferInfo range(std::uint32_t frame, const Section& section) const;
-    void findSeparate();
+    void summarize();
 
     std::uint32_t maxMaterials_;
     std::array<Section, techniqueCount + 1> sections_; ///< one a technique, then slots by id and MaterialParameters
     VkDeviceSize size_ = 0;                            ///< of all sections
-    bool haveSeparate_ = false;                        ///< as Frame::haveSeparate, for the next frame
+    Summary summary_;                                  ///< of the next frame
     std::vector<std::byte> current_;                   ///< laid out as the frames' buffers; the
                                                        ///< slots by id are not used
     std::vector<std::uint32_t> slots_;                 ///< by id, in current_; 0 = not set
-    std::uint32_t setCount_ = 0;
     std::vector<Frame> frames_;
 };
 

@@ -152,11 +152,13 @@ LightParameters parametersOf(const NacreLight& light, const NacreTransmitInfo& i
 
 } // namespace
 
-ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area) {
+ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area,
+                                    bool albedoBefore) {
     constexpr const char* name = "NacreScatterInfo";
     ScatterParameters parameters{};
     ViewParameters& view = parameters.view;
     view.flags = flagsOf(given) | (info.skipUnscattered ? flagSkipUnscattered : 0u);
+    view.flags |= albedoBefore && (view.flags & flagAlbedo) != 0 ? flagAlbedoBefore : 0u;
     setNormals(view, info, name);
     setView(view, info.view, area, (view.flags & flagNormal) != 0, name);
     parameters.pixelWidth = pixelWidth(view);

@@ -12,8 +12,9 @@ namespace nacre::effect {
 /// Optional images that are given, bits 1u << NacreImageSlot.
 using ImageSet = std::uint32_t;
 
-/// separate: whether some materials may not exchange light.
-ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area);
+/// albedoBefore: whether some material may apply the albedo before scattering, too.
+ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area,
+                                    bool albedoBefore);
 /// Normals are always given.
 TransmitParameters transmitParameters(const NacreTransmitInfo& info, ImageSet given, const VkRect2D& area);
 

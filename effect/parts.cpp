@@ -165,7 +165,7 @@ NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t im
         const VkRect2D area = renderArea(info->view, info->irradiance.extent, largestExtent, "NacreScatterInfo");
         checkCovers(info->depth.extent, area, "NacreScatterInfo::depth");
         checkCovers(info->materialId.extent, area, "NacreScatterInfo::materialId");
-        fillBlock(scatterParameters(*info, images, area), size, data);
+        fillBlock(scatterParameters(*info, images, area, true), size, data);
     });
 }
 

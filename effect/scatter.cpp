@@ -68,8 +68,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     const VkRect2D area = renderArea(info.view, info.irradiance.extent, context.maxExtent, name);
     const ImageSet given = checkImages(info, area);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
-    const bool separate = context.materials->haveSeparate(info.frame);
-    const ScatterParameters parameters = scatterParameters(info, given, area);
+    const MaterialTable::Summary& materials = context.materials->summary(info.frame);
+    const ScatterParameters parameters = scatterParameters(info, given, area, materials.havePreAndPost);
     checkBakedKernel(context, info);
 
     // From here on nothing fails.
@@ -89,7 +89,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
-                  techniques[technique]->uses(), context.materials->slotCount(info.frame), separate,
+                  techniques[technique]->uses(), materials.slotCount, materials.haveSeparate,
                   info.thesisBakedKernel != VK_FALSE});
 }
 

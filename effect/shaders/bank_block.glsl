@@ -92,7 +92,7 @@ void decodeBlock(inout Block block, ivec2 first) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         block.depth[i] = block.material[i] != 0u ? along[i] : 0.0;
     }
-    if (hasFlag(flagAlbedo)) {
+    if (hasFlag(flagAlbedoBefore)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
             block.light[i] *= albedoBefore(ownPixel(first + offsetOf(i)), block.material[i]);
         }

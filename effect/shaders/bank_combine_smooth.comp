@@ -293,7 +293,7 @@ Quad loadRegion(Region region, int thread, ivec2 texel) {
         ringPixel.quadWord = isOccupied(region, ring >> 1) ? ringPixel.quadWord : 0u;
     }
     Quad quad = Quad(fineTexel.w, materialsOf(fineTexel.w, fine), uintBitsToFloat(fineTexel.z));
-    if (hasFlag(flagAlbedo)) {
+    if (hasFlag(flagAlbedoBefore)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
             ivec2 pixel = min(first + ivec2(i & 1, i >> 1), last);
             lights[i] *= albedoBefore(pixel + view.areaOffset, pixelMaterial(quad.materials, ivec2(i & 1, i >> 1)));

@@ -186,7 +186,7 @@ uint storeFetched(Region region, ivec2 place, Fetched fetched) {
     uint material = pixelMaterial(materialsOf(fetched.quadWord, fetched.quad), fetched.local);
     material = fetched.local == region.first + place ? material : 0u;
     vec3 light = fetched.light;
-    if (hasFlag(flagAlbedo)) {
+    if (hasFlag(flagAlbedoBefore)) {
         light *= albedoBefore(fetched.local + view.areaOffset, material);
     }
     float area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));

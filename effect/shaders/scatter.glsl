@@ -35,10 +35,14 @@ bool exchanges(uint from, uint to) {
     return from == to || (from != 0u && (materials[from].exchangeGroups & materials[to].exchangeGroups) != 0u);
 }
 
+// Whether a material applies the albedo before scattering, too. Asked of the material only where some material does.
+bool isAlbedoBefore(uint material) {
+    return hasFlag(flagAlbedoBefore) && materials[material].preAndPost != 0u;
+}
+
 // The albedo's share that is applied before scattering.
 vec3 albedoBefore(ivec2 pixel, uint material) {
-    return hasFlag(flagAlbedo) && materials[material].preAndPost != 0u ? sqrt(texelFetch(albedoImage, pixel, 0).rgb)
-                                                                       : vec3(1.0);
+    return isAlbedoBefore(material) ? sqrt(texelFetch(albedoImage, pixel, 0).rgb) : vec3(1.0);
 }
 
 // The light that enters at a pixel of a material. Not finite where the irradiance is not.
@@ -75,7 +79,7 @@ float strengthAt(ivec2 pixel, uint material) {
 // The albedo's share that is applied after scattering.
 vec3 albedoAfter(ivec2 pixel, uint material) {
     vec3 albedo = hasFlag(flagAlbedo) ? texelFetch(albedoImage, pixel, 0).rgb : vec3(1.0);
-    return materials[material].preAndPost != 0u ? sqrt(albedo) : albedo;
+    return isAlbedoBefore(material) ? sqrt(albedo) : albedo;
 }
 
 // Writes a pixel of a material, given its light before the albedo that is applied after scattering.

@@ -79,6 +79,7 @@ NACRE_CONSTANT flagThicknessOut = 16u;
 NACRE_CONSTANT flagThesisTransmittance = 32u;
 NACRE_CONSTANT flagHardwareDepth = 64u;
 NACRE_CONSTANT flagSkipUnscattered = 128u; // NacreScatterInfo::skipUnscattered
+NACRE_CONSTANT flagAlbedoBefore = 256u;    // with flagAlbedo: some material may apply it before scattering, too
 
 // A camera. Lengths in mm, pixels are those of the whole image. A pixel's view-space position at view depth z is
 // (ray·z + origin, z) with ray = rayX·pixel.x + rayY·pixel.y + rayBias and origin alike (view.glsl).

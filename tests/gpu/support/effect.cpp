@@ -38,6 +38,14 @@ std::uint32_t toB10G11R11(const Float4& value) {
     return toSmallFloat(value[0], 6) | toSmallFloat(value[1], 6) << 11 | toSmallFloat(value[2], 5) << 22;
 }
 
+std::uint32_t toUnorm8(const Float4& value) {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i) {
+        bits |= static_cast<std::uint32_t>(std::lround(255 * value[i])) << 8 * i;
+    }
+    return bits;
+}
+
 Float4 fromB10G11R11(std::uint32_t bits) {
     const auto channel = [](std::uint32_t value, int mantissa) {
         return fromHalf(static_cast<std::uint16_t>(value << (10 - mantissa)));
@@ -53,6 +61,8 @@ void uploadLight(Gpu& gpu, GpuImage& image, const std::vector<Float4>& light) {
         return gpu.upload(image, toHalves(light));
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         return gpu.upload(image, converted<std::uint32_t>(light, toB10G11R11));
+    case VK_FORMAT_R8G8B8A8_UNORM:
+        return gpu.upload(image, converted<std::uint32_t>(light, toUnorm8));
     default:
         return gpu.upload(image, light);
     }
@@ -156,7 +166,7 @@ ScatterImages::ScatterImages(Gpu& gpu, const ScatterInput& input, const ScatterF
         add(info.strength, VK_FORMAT_R32_SFLOAT, [&](GpuImage& image) { gpu.upload(image, input.strength); });
     }
     if (!input.albedo.empty()) {
-        add(info.albedo, VK_FORMAT_R32G32B32A32_SFLOAT, [&](GpuImage& image) { gpu.upload(image, input.albedo); });
+        add(info.albedo, formats.albedo, [&](GpuImage& image) { uploadLight(gpu, image, input.albedo); });
     }
     scattered = gpu.createImage({.format = formats.scattered,
                                  .extent = input.extent,

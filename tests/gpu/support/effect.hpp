@@ -55,6 +55,7 @@ struct ScatterFormats {
     VkFormat materialId = VK_FORMAT_R16_UINT;
     VkFormat depth = VK_FORMAT_R32_SFLOAT;
     VkFormat scattered = VK_FORMAT_R32G32B32A32_SFLOAT;
+    VkFormat albedo = VK_FORMAT_R32G32B32A32_SFLOAT;
 };
 
 /// The input's images on the device, and the struct that names them.

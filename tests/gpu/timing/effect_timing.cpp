@@ -21,9 +21,9 @@ using namespace nacre::tests;
 namespace {
 
 constexpr ScatterFormats smallIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8_UINT, VK_FORMAT_R32_SFLOAT,
-                                  VK_FORMAT_R16G16B16A16_SFLOAT};
+                                  VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
 constexpr ScatterFormats largeIds{VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16_UINT, VK_FORMAT_R32_SFLOAT,
-                                  VK_FORMAT_R16G16B16A16_SFLOAT};
+                                  VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
 
 // What is on the screen.
 struct Subject {
@@ -122,8 +122,14 @@ void print(const Timing& timing) {
 // The techniques in turn, the first of them twice (their difference is the noise floor), and the copy pass.
 void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechnique> techniques,
                     const TimingOptions& options, std::vector<Row>& rows) {
-    const ScatterScene scene = makeSubject(subject);
+    ScatterScene scene = makeSubject(subject);
     ScatterInput input = toInput(scene);
+    if (options.albedo) {
+        input.albedo.assign(input.depth.size(), {0.75f, 0.5f, 0.25f, 1});
+        for (Material& material : scene.materials) {
+            material.albedoUse = *options.albedo;
+        }
+    }
     if (subject.kind == SceneKind::Plane) {
         setPlaneIds(input, subject);
     }

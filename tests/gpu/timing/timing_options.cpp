@@ -49,6 +49,19 @@ bool parseSwitch(const std::string& name, const std::string& text) {
     return text == "on";
 }
 
+std::optional<AlbedoUse> parseAlbedo(const std::string& text) {
+    if (text == "post") {
+        return AlbedoUse::Post;
+    }
+    if (text == "preAndPost") {
+        return AlbedoUse::PreAndPost;
+    }
+    if (text != "off") {
+        throw std::runtime_error("--albedo is '" + text + "', must be off, post or preAndPost");
+    }
+    return std::nullopt;
+}
+
 std::vector<VkBool32> parseSwitches(const std::string& name, const std::string& text) {
     if (text == "both") {
         return {VK_FALSE, VK_TRUE};
@@ -70,6 +83,7 @@ const char* const timingUsage =
   --rounds N            of 20 steady repeats and 5 lone frames each (12)
   --shader-float16 X    on or off: half floats where the device has them (on)
   --skip-unscattered X  on, off or both: pixels without a material are left as they are (off)
+  --albedo X            off, post or preAndPost: scatter is given 8-bit albedo, which materials use so (off)
   --csv FILE            where all figures go (effect_timing.csv)
 )";
 
@@ -103,6 +117,8 @@ TimingOptions parseTimingOptions(std::span<char*> arguments) {
             options.shaderFloat16 = parseSwitch(name, value);
         } else if (name == "--skip-unscattered") {
             options.skipUnscattered = parseSwitches(name, value);
+        } else if (name == "--albedo") {
+            options.albedo = parseAlbedo(value);
         } else if (name == "--size") {
             options.extent = parseSize(value);
         } else {

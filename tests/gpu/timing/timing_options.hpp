@@ -1,9 +1,11 @@
 // What effect_timing is asked to do.
 #pragma once
 
+#include "nacre/material.hpp"
 #include "nacre/nacre.h"
 #include "tests/gpu/timing/measure.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@ struct TimingOptions {
     MeasureSettings measure;
     bool shaderFloat16 = true;                       // where the device has it
     std::vector<VkBool32> skipUnscattered{VK_FALSE}; // one after the other
+    std::optional<AlbedoUse> albedo;                 // an image of it is given, and every material uses it so
 };
 
 /// What --help says.
