@@ -113,7 +113,8 @@ typedef enum NacreDepthEncoding {
 
 typedef enum NacreAlbedoUse {
     NACRE_ALBEDO_POST = 0,         /**< scatter irradiance, multiply by the albedo afterwards */
-    NACRE_ALBEDO_PRE_AND_POST = 1, /**< multiply by the albedo's square root before and after */
+    NACRE_ALBEDO_PRE_AND_POST = 1, /**< multiply by the albedo's square root before and after; while any material has
+                                        it, scatter with an albedo image takes a few microseconds more */
     NACRE_ALBEDO_USE_MAX_ENUM = 0x7fffffff
 } NacreAlbedoUse;
 

@@ -102,7 +102,8 @@ NACRE_API NacreResult nacreFillTable(NacreTechnique technique, const NacreMateri
                                      const NacreMessages* messages, size_t size, void* data);
 /** "parameters" of a scatter technique (ScatterParameters). Of info's images only the extents of depth and materialId are
  *  looked at, and irradiance's where view.renderArea is zero; frame, technique and timestamps are not.
- *  thesisBakedKernel must be VK_FALSE.
+ *  thesisBakedKernel must be VK_FALSE. As for materials some of which have NACRE_ALBEDO_PRE_AND_POST: with an albedo image
+ *  the passes ask every pixel's.
  *  images: bits 1u << NacreImageSlot of the optional images that are bound. */
 NACRE_API NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t images,
                                                  const NacreMessages* messages, size_t size, void* data);
