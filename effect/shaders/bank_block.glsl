@@ -159,7 +159,7 @@ vec4 anyAreas(Block block, Sides sides) {
 struct Reduced {
     RawTexel texel;
     RawTexel second; // its second surface
-    vec2 slope; // depth steps from pixel to pixel, in pixel widths
+    uint weights;    // packBeside or, where the block is rough, packSpread with signBit
     vec4 areas;
 };
 
@@ -169,7 +169,7 @@ Reduced reducePlain(Block block, Sides sides, float width) {
     vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
     vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
     RawTexel texel = RawTexel(0.25 * light, dot(areas, vec4(0.25)), 1.0, dot(depth, vec4(0.25)), block.material[0], false);
-    return Reduced(texel, emptyTexel(), steps * (0.5 / width), areas);
+    return Reduced(texel, emptyTexel(), packBeside(weightsBeside(steps * (0.5 / width))), areas);
 }
 
 // Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
@@ -196,39 +196,6 @@ bvec4 heavierHalf(RawTexel pixels[4]) {
     return isOne ? valid : balance >= 0.0 ? near : far;
 }
 
-// Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
-Reduced reduceAny(Block block, Sides sides) {
-    Reduced result;
-    result.areas = anyAreas(block, sides);
-    RawTexel pixels[4];
-    bool dropped = false;
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        bool gives = block.depth[i] > 0.0 && isFinite(block.light[i]);
-        dropped = dropped || (block.material[i] != 0u && !gives);
-        pixels[i] = emptyTexel();
-        result.areas[i] = gives ? result.areas[i] : 1.0;
-        if (gives) {
-            vec3 light = result.areas[i] * block.light[i];
-            pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
-        }
-    }
-    bvec4 kept = secondLevels > 0 ? heavierHalf(pixels) : chooseSurface(pixels, 1);
-    result.second = secondLevels > 0 ? mergeTexels(pixels, not(kept)) : emptyTexel();
-    result.texel = mergeTexels(pixels, kept);
-    result.texel.dropped = result.texel.dropped || dropped;
-    vec2 steps = vec2(0.0);
-    vec2 pairs = vec2(0.0);
-    [[unroll]] for (int i = 0; i < 2; ++i) {
-        bool pairX = kept[2 * i] && kept[2 * i + 1];
-        bool pairY = kept[i] && kept[i + 2];
-        steps += vec2(pairX ? pixels[2 * i + 1].depth - pixels[2 * i].depth : 0.0,
-                      pairY ? pixels[i + 2].depth - pixels[i].depth : 0.0);
-        pairs += vec2(pairX, pairY);
-    }
-    result.slope = steps / (max(pairs, vec2(1.0)) * texelWidth(0, result.texel.depth));
-    return result;
-}
-
 float surfaceStep(float a, float b) {
     return min(a, b) > 0.0 ? abs(a - b) : 0.0;
 }
@@ -253,6 +220,65 @@ bool isRough(Block block, Sides sides, Depths around) {
                               : longestBesideHole(depth, sides) > bankSmoothHoleDepth * width;
 }
 
+// Of the pixels that a texel has kept.
+DepthSpread spreadOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
+    float perWidth = 1.0 / texelWidth(1, texel.depth);
+    float variance = 0.0;
+    vec2 lights = vec2(0.0); // sum of the channels; times distance
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        if (kept[i]) {
+            float away = (pixels[i].depth - texel.depth) * perWidth;
+            variance += 0.25 * away * away;
+            lights += dot(clamp(pixels[i].light, vec3(0.0), vec3(1e30)), vec3(1.0 / pixels[i].area)) * vec2(1.0, away);
+        }
+    }
+    const float ownVariance = 0.5 * bankPixelDepthVariance; // of depth weights, as Gaussians
+    const float leastCloseness = ownVariance / (ownVariance + 0.25 * bankSurfaceSeparation * bankSurfaceSeparation);
+    float closeness = texel.mass / max(texel.mass + variance / ownVariance, 0.25);
+    return DepthSpread(max(closeness, leastCloseness), closeness / ownVariance * lights.y / max(lights.x, 1e-20));
+}
+
+// Depth steps from pixel to pixel, in pixel widths.
+vec2 slopeOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
+    vec2 steps = vec2(0.0);
+    vec2 pairs = vec2(0.0);
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        bool pairX = kept[2 * i] && kept[2 * i + 1];
+        bool pairY = kept[i] && kept[i + 2];
+        steps += vec2(pairX ? pixels[2 * i + 1].depth - pixels[2 * i].depth : 0.0,
+                      pairY ? pixels[i + 2].depth - pixels[i].depth : 0.0);
+        pairs += vec2(pairX, pairY);
+    }
+    return steps / (max(pairs, vec2(1.0)) * texelWidth(0, texel.depth));
+}
+
+// Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
+// `hasStep`: isRough.
+Reduced reduceAny(Block block, Sides sides, bool hasStep) {
+    Reduced result;
+    result.areas = anyAreas(block, sides);
+    RawTexel pixels[4];
+    bool dropped = false;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        bool gives = block.depth[i] > 0.0 && isFinite(block.light[i]);
+        dropped = dropped || (block.material[i] != 0u && !gives);
+        pixels[i] = emptyTexel();
+        result.areas[i] = gives ? result.areas[i] : 1.0;
+        if (gives) {
+            vec3 light = result.areas[i] * block.light[i];
+            pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
+        }
+    }
+    bvec4 kept = secondLevels > 0 ? heavierHalf(pixels) : chooseSurface(pixels, 1);
+    result.second = secondLevels > 0 ? mergeTexels(pixels, not(kept)) : emptyTexel();
+    result.texel = mergeTexels(pixels, kept);
+    result.texel.dropped = result.texel.dropped || dropped;
+    bool rough = result.texel.dropped || hasStep;
+    result.weights = rough ? signBit | packSpread(spreadOfPixels(pixels, kept, result.texel))
+                           : packBeside(weightsBeside(slopeOfPixels(pixels, kept, result.texel)));
+    return result;
+}
+
 Reduced reduceBlock(Block block, int place, ivec2 texel) {
     Sides sides = sidesOf(place);
     float width = texelWidth(0, block.depth[0]);
@@ -264,10 +290,9 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
         plain = isFinite(reduced.texel.light);
     }
     if (!plain) {
-        reduced = reduceAny(block, sides);
-        bool rough = reduced.texel.dropped || isRough(block, sides, around);
+        reduced = reduceAny(block, sides, isRough(block, sides, around));
         bool isPart = secondLevels > 0 || reduced.texel.mass < 1.0;
-        uint bits = (rough ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
+        uint bits = ((reduced.weights & signBit) != 0u ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
         if (bits != 0u) {
             atomicOr(roughness, bits);
         }

@@ -6,8 +6,10 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// Of level 1's texels as reduced, beside fineLights. An empty one has no area.
-shared float fineDepths[fineCount];
+// Of level 1's texels as reduced, beside fineLights: depth, then what addReducedTap wants: what scales squared distances in texel
+// widths, lightSlope over bankMostLit, area, 0 where it is empty.
+shared vec4 fineSurfaces[fineCount];
+const float pixelScale = 0.25 / bankPixelDepthVariance;
 shared uint fineMaterials[separateMaterials ? fineCount : 1];
 // Of their second surfaces the words of light and area, and depth; 0 where there is none.
 shared uvec2 fineSecondLights[secondLevels > 0 ? fineCount : 1];
@@ -17,8 +19,12 @@ shared uvec2 levelSecondLights[secondLevels > 0 ? coarseRoom : 1];
 shared float levelSecondDepths[secondLevels > 0 ? coarseRoom : 1];
 
 void storeFine(int place, int index, uvec4 words) {
+    DepthSpread spread = spreadOf(words.zw);
+    // What is spread over more depths weighs farther, and less.
+    float area = unpackHalf2x16(words.y).y * sqrt(sqrt(spread.closeness));
     fineLights[place] = words.xy;
-    fineDepths[place] = uintBitsToFloat(words.z);
+    fineSurfaces[place] =
+        vec4(abs(uintBitsToFloat(words.z)), pixelScale * spread.closeness, spread.lightSlope / bankMostLit, area);
     if (separateMaterials) {
         fineMaterials[place] = words.w >> 16;
     }
@@ -135,16 +141,18 @@ vec4 finestTaps(int odd) {
     return odd != 0 ? vec4(1.0 / 4.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 12.0) : vec4(1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 4.0);
 }
 
-// A texel as reduced, by its first two words. `distance`: how far it is behind the pixel.
-void addReducedTap(inout vec4 lightAndArea, uvec2 words, float kernel, float distance, float scale) {
-    vec4 tap = unpackLight(words);
-    float weight = depthWeight(distance, scale) * (kernel * tap.a);
-    lightAndArea += weight * vec4(tap.rgb, 1.0);
+// A texel as reduced: the words of its light, and `surface`: fineSurfaces but for the depth. It gives the light that it has at the
+// pixel's depth, here over bankMostLit. `distance`: how far it is behind the pixel, in texel widths.
+void addReducedTap(inout vec4 lightAndArea, uvec2 words, float kernel, float distance, vec3 surface) {
+    float weight = depthWeight(distance, surface.x) * (kernel * surface.z);
+    float lit = clamp(fma(-surface.y, distance, 1.0 / bankMostLit), 0.0, 1.0);
+    lightAndArea += weight * vec4(lit * unpackLight(words).rgb, 1.0);
 }
 
 // Level 1, as the pixel sees it.
 void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint material) {
-    float scale = depthScale(texelWidth(1, depth), bankPixelDepthVariance);
+    float perWidth = 1.0 / texelWidth(1, depth);
+    float ownDistance = depth * perWidth;
     ivec2 odd = local & 1;
     vec4 tapsX = finestTaps(odd.x);
     vec4 tapsY = finestTaps(odd.y);
@@ -155,13 +163,16 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
         [[unroll]] for (int x = 0; x < 4; ++x) {
             int index = first + y * finePitch + x;
             float kernel = !separateMaterials || exchanges(fineMaterials[index], material) ? tapsX[x] : 0.0;
-            addReducedTap(rowLightAndArea, fineLights[index], kernel, fineDepths[index] - depth, scale);
+            vec4 surface = fineSurfaces[index];
+            addReducedTap(rowLightAndArea, fineLights[index], kernel, fma(surface.x, perWidth, -ownDistance), surface.yzw);
             if (secondLevels > 0 && fineSecondDepths[index] > 0.0) {
-                addReducedTap(rowLightAndArea, fineSecondLights[index], kernel, fineSecondDepths[index] - depth, scale);
+                addReducedTap(rowLightAndArea, fineSecondLights[index], kernel, fma(fineSecondDepths[index], perWidth, -ownDistance),
+                              vec3(pixelScale, 0.0, unpackHalf2x16(fineSecondLights[index].y).y));
             }
         }
         lightAndArea += tapsY[y] * rowLightAndArea;
     }
+    lightAndArea.rgb *= bankMostLit;
     add(sum, weight, surfaceSeen(lightAndArea));
 }
 

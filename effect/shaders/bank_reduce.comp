@@ -44,9 +44,9 @@ uvec4 sharedSecond(int place) {
     return words;
 }
 
-// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 packQuad. Returns the second surface, which is
-// in the pyramid alone.
-uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint quad) {
+// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 depth's sign, and packQuad. Returns the second
+// surface, which is in the pyramid alone.
+uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uvec2 quad) {
     RawTexel first = surfaces.first;
     lightsAndAreas[place] = vec4(first.light, first.area);
     depthsAndMasses[place] = vec2(first.depth, first.dropped ? -first.mass : first.mass);
@@ -55,7 +55,7 @@ uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uint q
     }
     int index = texelIndex(level, texel);
     uvec4 words = packRaw(first);
-    words.w = level == 1 ? quad : words.w;
+    words.zw = level == 1 ? uvec2(words.z | quad.x, quad.y) : words.zw;
     uvec4 second = uvec4(0u);
     if (secondLevels > 0 && surfaces.second.mass > 0.0) {
         second = packRaw(surfaces.second);
@@ -118,7 +118,7 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     int spacing = 1 << (level - 2);
     Children children = Children((texel.y * side + texel.x) * 2 * spacing, spacing);
     Surfaces surfaces = secondLevels > 0 ? reduceBoth(children, level) : reduceOne(children, level);
-    uvec4 second = storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, 0u);
+    uvec4 second = storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, uvec2(0u));
     if (secondLevels > 0) {
         storeSharedSecond(children.first, second);
     }
@@ -194,12 +194,13 @@ void reduceOneSurface(ivec2 tile, int thread) {
 // Returns the second surface.
 uvec4 storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
     int index = texelIndex(1, tile * side + texel);
-    uint quad = packQuad(weightsBeside(reduced.slope), materials, separateMaterials ? reduced.texel.material : 0u);
-    if ((quad & mixedBit) != 0u) {
+    uint word = packQuad(reduced.weights & ~signBit, materials, separateMaterials ? reduced.texel.material : 0u);
+    if ((word & mixedBit) != 0u) {
         quadMaterials[index] = materials;
     }
     quadAreas[index] = packAreas(reduced.areas);
-    return storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel, quad);
+    return storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel,
+                         uvec2(reduced.weights & signBit, word));
 }
 
 // The light of a tile without subsurface pixels leaves where it enters, row by row.

@@ -59,24 +59,26 @@ struct Block {
             depth += texel->mass / 4 * texel->depth;
         }
         result.depth = result.mass > 0 ? depth / result.mass : 0;
+        noteDepths(result, keep);
         return result;
+    }
+
+    // The variance of depths, mm², and how much farther the middle of the light, its channels' sum, is than theirs, mm.
+    template <typename Keep> void noteDepths(RawTexel& result, Keep keep) const {
+        double sum = 0;
+        for (const RawTexel* texel : texels) {
+            const double share = keep(*texel) ? texel->mass / 4 / result.mass : 0;
+            const double away = texel->depth - result.depth;
+            const double light = share / texel->area * (texel->light[0] + texel->light[1] + texel->light[2]);
+            sum += light;
+            result.depthVariance += share * away * away;
+            result.lightSlope += light * away;
+        }
+        result.lightSlope /= std::max(sum, 1e-20);
     }
 
     bool isNear(const RawTexel& texel) const { return texel.depth - nearest <= farthest - texel.depth; }
 };
-
-// Depth step to the next pixel along one axis, mm: the mean of both sides or, where one is a step to another surface,
-// the smaller. A side without a surface is null.
-double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* after, double width) {
-    const double stepBefore = before != nullptr ? pixel.depth - before->depth : 0;
-    const double stepAfter = after != nullptr ? after->depth - pixel.depth : 0;
-    if (before == nullptr || after == nullptr) {
-        return stepBefore + stepAfter;
-    }
-    const double smaller = std::min(std::abs(stepBefore), std::abs(stepAfter));
-    const double larger = std::max(std::abs(stepBefore), std::abs(stepAfter));
-    return larger <= constants::bankContinuedStep * std::max(smaller, width) ? 0.5 * (stepBefore + stepAfter) : smaller;
-}
 
 } // namespace
 
@@ -192,6 +194,15 @@ void BankTwin::reduceLevel(int level) {
             std::swap(texel, seconds.texels[i]);
         }
     }
+    for (std::size_t i = 0; i < to.texels.size(); ++i) {
+        RawTexel& texel = to.texels[i];
+        const bool noted = level == 1 && isRough(static_cast<int>(i) % to.width, static_cast<int>(i) / to.width);
+        const double width = texelWidth(level, texel.depth);
+        texel.depthVariance *= noted ? 1 / (width * width) : 0;
+        texel.lightSlope *= noted ? 1 / (width * (0.5 * constants::bankPixelDepthVariance + texel.depthVariance)) : 0;
+        texel.depthVariance = std::min(texel.depthVariance, std::pow(0.5 * constants::bankSurfaceSeparation, 2));
+        seconds.texels[i].depthVariance = seconds.texels[i].lightSlope = 0;
+    }
 }
 
 void BankTwin::blurLevel(int level) {
@@ -306,8 +317,8 @@ BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
     SurfaceSum sum;
     for (int i = 0; i < 50; ++i) {
         const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
-        sum.add(raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth,
-                variance * width * width);
+        sum.add(raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth, variance,
+                width);
     }
     return {sum.lightOfMass(), sum.mass(), depth, false};
 }

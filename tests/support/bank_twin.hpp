@@ -23,6 +23,10 @@ struct RawTexel {
     double mass = 0;      ///< [0, 1] share of the texel's pixels that count
     double depth = 0;     ///< mm; 0 where mass is 0
     bool dropped = false; ///< pixels of another surface were left out, here or further down
+    // Of level 1, where its pixels' depths make a step; elsewhere 0:
+    double depthVariance = 0; ///< of these depths, texel widths²
+    double lightSlope = 0;    ///< by which share of itself light changes with a texel width of depth, a depth weight's
+                              ///< variance added to theirs
 };
 
 /// A texel of the blurred pyramid.
@@ -74,6 +78,7 @@ private:
     bool hasSeconds(int level) const;
     TwinLevel<RawTexel> reduced(const TwinLevel<RawTexel>& from, int level) const;
     void reduceLevel(int level);
+    void noteDepths(RawTexel& texel, int x, int y) const;
     void blurLevel(int level);
     bool isWhole(int level, int firstX, int firstY) const;
     void blurBlock(int level, int firstX, int firstY);

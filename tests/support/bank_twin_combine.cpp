@@ -228,7 +228,7 @@ BankTwin::Seen BankTwin::finest(int x, int y) const {
     for (int i = 0; i < 50; ++i) {
         const TwinLevel<RawTexel>& raw = i < 25 ? raw_[1] : rawSeconds_[1];
         surface.add(raw.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2), tapsX[i % 5] * tapsY[i / 5 % 5], depth,
-                    constants::bankPixelDepthVariance * width * width);
+                    constants::bankPixelDepthVariance, width);
     }
     return {surface.lightOfMass(), surface.mass()};
 }
@@ -240,7 +240,7 @@ BankTwin::Seen BankTwin::pixels(int x, int y) const {
     SurfaceSum surface;
     for (int i = 0; i < 9; ++i) {
         surface.add(raw_[0].at(x + i % 3 - 1, y + i / 3 - 1), taps[i % 3] * taps[i / 3], depth,
-                    constants::bankPixelDepthVariance * width * width);
+                    constants::bankPixelDepthVariance, width);
     }
     return {surface.lightOfMass(), surface.mass()};
 }

@@ -34,15 +34,18 @@ struct SurfaceSum {
     double area = 0;
 
     /// Adds a tap, by the kernel's weight and g(Δz² / variance) of its depth from `depth` [mm]. Null and empty ones are
-    /// missing.
-    void add(const RawTexel* tap, double kernel, double depth, double variance) {
+    /// missing. `width`: a texel's, mm; where the tap's own depths vary, it is seen from farther, as one of less area,
+    /// and in the light that it has at `depth`.
+    void add(const RawTexel* tap, double kernel, double depth, double variance, double width) {
         if (tap == nullptr || tap->mass <= 0) {
             return;
         }
-        const double difference = tap->depth - depth;
-        const double weight = kernel * falloff(difference * difference / variance);
+        const double distance = (tap->depth - depth) / width;
+        const double closeness = 1 / (1 + 2 * tap->depthVariance / variance);
+        const double weight = kernel * falloff(distance * distance * closeness / variance) * std::pow(closeness, 0.25);
+        const double lit = weight * std::clamp<double>(1 - tap->lightSlope * distance, 0, constants::bankMostLit);
         for (int channel = 0; channel < 3; ++channel) {
-            light[channel] += weight * tap->light[channel];
+            light[channel] += lit * tap->light[channel];
         }
         area += weight * tap->area;
     }
@@ -58,5 +61,18 @@ struct SurfaceSum {
         return result;
     }
 };
+
+// Depth step to the next pixel along one axis, mm: the mean of both sides or, where one is a step to another surface,
+// the smaller. A side without a surface is null.
+inline double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* after, double width) {
+    const double stepBefore = before != nullptr ? pixel.depth - before->depth : 0;
+    const double stepAfter = after != nullptr ? after->depth - pixel.depth : 0;
+    if (before == nullptr || after == nullptr) {
+        return stepBefore + stepAfter;
+    }
+    const double smaller = std::min(std::abs(stepBefore), std::abs(stepAfter));
+    const double larger = std::max(std::abs(stepBefore), std::abs(stepAfter));
+    return larger <= constants::bankContinuedStep * std::max(smaller, width) ? 0.5 * (stepBefore + stepAfter) : smaller;
+}
 
 } // namespace nacre::tests
