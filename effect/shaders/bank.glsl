@@ -102,8 +102,8 @@ uvec2 packBlurred(BlurredTexel texel) {
 const uint mixedBit = 0x8000u; // of a quad: its pixels' materials are in quadMaterials
 
 // The last word of a texel of level 1, whose mass only pass A needs: what the combination wants to know of its 2x2 px. The
-// weights beside the middle of the full-resolution 3x3 in x and y (packBeside) or packSpread, 14 bits, secondBit, whether materials differ, and above
-// them that of all four or, where they differ, the texel's.
+// weights beside the middle of the full-resolution 3x3 in x and y (packBeside) or, where the block is rough, packSpread, 14
+// bits; secondBit; whether materials differ, and above them that of all four or, where they differ, the texel's.
 uint packQuad(uint weights, uvec2 materials, uint texelMaterial) {
     bool mixed = materials != uvec2((materials.x & 0xffffu) * 0x10001u);
     return weights | (mixed ? mixedBit | texelMaterial << 16 : materials.x << 16);
@@ -118,17 +118,17 @@ vec2 besideOf(uint quad) {
     return vec2(quad & 127u, quad >> 7 & 127u) / 254.0;
 }
 
-// Where pixels make a step, the texel of level 1 stands for depths that vary, as a Gaussian. With a depth weight's variance v, both
-// in texel widths squared:
+// Where pixels make a step, the texel of level 1 stands for depths that vary, as a Gaussian. With a depth weight's variance v,
+// both in texel widths squared:
 struct DepthSpread {
     float closeness;  // (0, 1] v / (v + the depths' variance); squared distances to the texel count by so much
-    float lightSlope; // covariance of light and depth / (v + the depths' variance) / light: its change with a texel width of depth
+    float lightSlope; // covariance of light and depth / (v + the depths' variance) / light: its change with a texel width
 };
 
 const DepthSpread noSpread = DepthSpread(1.0, 0.0);
 
-// In the last word of a texel of level 1 where smooth regions would look for packBeside; the sign of the texel's depth says so. The
-// slope is less than √3 / 2 where pixels are no further apart than bankSurfaceSeparation.
+// In the last word of a texel of level 1 where smooth regions would look for packBeside; the sign of the texel's depth says so.
+// The slope is less than √3 / 2 where pixels are no further apart than bankSurfaceSeparation.
 const float mostLightSlope = 0.875;
 
 uint packSpread(DepthSpread spread) {

@@ -78,7 +78,6 @@ private:
     bool hasSeconds(int level) const;
     TwinLevel<RawTexel> reduced(const TwinLevel<RawTexel>& from, int level) const;
     void reduceLevel(int level);
-    void noteDepths(RawTexel& texel, int x, int y) const;
     void blurLevel(int level);
     bool isWhole(int level, int firstX, int firstY) const;
     void blurBlock(int level, int firstX, int firstY);
