@@ -122,7 +122,7 @@ vec2 besideOf(uint quad) {
 // both in texel widths squared:
 struct DepthSpread {
     float closeness;  // (0, 1] v / (v + the depths' variance); squared distances to the texel count by so much
-    float lightSlope; // covariance of light and depth / (v + the depths' variance) / light: its change with a texel width
+    float lightSlope; // covariance of light and depth / (v + the depths' variance) / light: its change per width of depth
 };
 
 const DepthSpread noSpread = DepthSpread(1.0, 0.0);
