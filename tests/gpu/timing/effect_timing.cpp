@@ -182,9 +182,13 @@ void printSlopes(const char* what, std::span<const Row> rows, double (*parameter
 
 // One of each: a minute's answer to a change of shaders.
 void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
-    measureSubject(gpu, {.extent = options.extent}, options.techniques, options, rows);
-    measureSubject(gpu, {.extent = options.extent, .footprint = 60, .coverage = 0.25}, options.techniques, options,
-                   rows);
+    const Subject planes[] = {{.extent = options.extent},
+                              {.extent = options.extent, .layers = 8, .materials = 1},
+                              {.extent = options.extent, .footprint = 60, .coverage = 0.25},
+                              {.extent = options.extent, .footprint = 60, .coverage = 0}};
+    for (const Subject& plane : planes) {
+        measureSubject(gpu, plane, options.techniques, options, rows);
+    }
     for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
         measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, options.techniques, options,
                        rows);
