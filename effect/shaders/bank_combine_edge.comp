@@ -42,7 +42,7 @@ void storeLevelSecond(Coarse coarse, uvec2 surface) {
     levelSecondDepths[coarse.place] = farAway;
     if ((surface.y & secondBit) != 0u) {
         uvec4 second = secondTexels[blurredSecondIndex(coarse.index)];
-        levelSecondLights[coarse.place] = second.xy;
+        levelSecondLights[coarse.place] = coarse.beyond ? beyondBorder(second.xy) : second.xy;
         levelSecondDepths[coarse.place] = uintBitsToFloat(second.z);
     }
 }

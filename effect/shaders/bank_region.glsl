@@ -74,13 +74,9 @@ ivec2 levelFirst(int level, ivec2 region) {
     return (region - (1 << (level - 1))) >> level;
 }
 
-int globalIndex(int level, ivec2 texel) {
-    return texelIndex(level, clamp(texel, ivec2(0), levelExtent(level) - 1));
-}
-
-// Of a texel of level 1, counted from the region's first.
+// Of a texel of level 1, counted from the region's first; at the border the nearest.
 int fineTexelIndex(Region region, ivec2 texel) {
-    return globalIndex(1, (region.first >> 1) + texel);
+    return texelIndex(1, clamp((region.first >> 1) + texel, ivec2(0), levelExtent(1) - 1));
 }
 
 // Whether all tiles that a region reads hold subsurface pixels. Of level 1 pass A has written nothing in others, and what is
@@ -103,8 +99,9 @@ int placeOf(uint packed) {
 // A texel of the levels from 2 on: which one it is of those that the region reads, counted level by level.
 struct Coarse {
     int level;
-    int place; // in shared memory
-    int index; // in the pyramid
+    int place;   // in shared memory
+    int index;   // in the pyramid
+    bool beyond; // the pyramid's border: there the nearest texel, with bankBorderShare of its light and mass
 };
 
 Coarse findCoarse(int number, ivec2 region) {
@@ -119,9 +116,11 @@ Coarse findCoarse(int number, ivec2 region) {
         }
     }
     int row = int((float(number - start) + 0.5) / float(width));
-    ivec2 texel = ivec2(number - start - row * width, row);
-    return Coarse(level, placeOf(packedPlaces >> 6 * (level - 2)) + texel.y * levelPitch + texel.x,
-                  globalIndex(level, levelFirst(level, region) + texel));
+    ivec2 place = ivec2(number - start - row * width, row);
+    ivec2 texel = levelFirst(level, region) + place;
+    ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
+    return Coarse(level, placeOf(packedPlaces >> 6 * (level - 2)) + place.y * levelPitch + place.x, texelIndex(level, inside),
+                  texel != inside);
 }
 
 // In fineLights; counted from the region's first texel.
@@ -203,9 +202,18 @@ uvec2 surfaceOf(int index, uvec2 own, uvec2 light) {
     return uvec2(borrowed.x, borrowed.y << 16 | fullMass);
 }
 
+// A blurred texel's words beyond the border.
+uvec2 beyondBorder(uvec2 words) {
+    return uvec2(packHalf2x16(bankBorderShare * unpackHalf2x16(words.x)),
+                 packHalf2x16(bankBorderShare * unpackHalf2x16(words.y)));
+}
+
 // Notes whether a level is plain.
 void storeLevelTexel(Coarse coarse, uvec2 light) {
     levelLights[coarse.place] = light;
+    if (coarse.beyond) {
+        levelLights[coarse.place] = beyondBorder(light);
+    }
     if ((light.y & signBit) != 0u) {
         atomicOr(roughLevels, 1u << coarse.level);
     }

@@ -84,7 +84,7 @@ private:
     bool isStep(int level, int x, int y, int besideX, int besideY) const;
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
-    const BlurredTexel& nearerSurface(int level, int x, int y, double depth) const;
+    BlurredTexel nearerSurface(int level, int x, int y, double depth) const;
     bool isRough(int blockX, int blockY) const;
     bool isEdgePart(int firstX, int firstY) const;
     void combineRegion(int firstX, int firstY);

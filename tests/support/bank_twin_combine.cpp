@@ -38,6 +38,18 @@ Corner cornerOf(int level, const PixelPlace& place) {
     return {static_cast<int>(firstX), static_cast<int>(firstY), positionX - firstX, positionY - firstY};
 }
 
+// A blurred texel as it is read: beyond the border the nearest one, with less of its light and mass.
+BlurredTexel texelRead(const TwinLevel<BlurredTexel>& level, int x, int y) {
+    BlurredTexel texel = level.nearest(x, y);
+    if (level.at(x, y) == nullptr) {
+        for (double& value : texel.light) {
+            value *= constants::bankBorderShare;
+        }
+        texel.mass *= constants::bankBorderShare;
+    }
+    return texel;
+}
+
 } // namespace
 
 // What a kernel sees of a pixel's surface: light times mass, and mass.
@@ -250,7 +262,7 @@ BankTwin::Seen BankTwin::plainLevel(int level, const PixelPlace& place) const {
     const Corner corner = cornerOf(level, place);
     Seen seen;
     for (int i = 0; i < 4; ++i) {
-        const BlurredTexel& tap = blurred_[level].nearest(corner.x + i % 2, corner.y + i / 2);
+        const BlurredTexel tap = texelRead(blurred_[level], corner.x + i % 2, corner.y + i / 2);
         const double weight = corner.weight(i);
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += weight * tap.light[channel];
@@ -261,9 +273,9 @@ BankTwin::Seen BankTwin::plainLevel(int level, const PixelPlace& place) const {
 }
 
 // Of a blurred texel's two surfaces the one that is closer to a depth.
-const BlurredTexel& BankTwin::nearerSurface(int level, int x, int y, double depth) const {
-    const BlurredTexel& first = blurred_[level].nearest(x, y);
-    const BlurredTexel& second = blurredSeconds_[level].nearest(x, y);
+BlurredTexel BankTwin::nearerSurface(int level, int x, int y, double depth) const {
+    const BlurredTexel first = texelRead(blurred_[level], x, y);
+    const BlurredTexel second = texelRead(blurredSeconds_[level], x, y);
     return second.depth > 0 && std::abs(second.depth - depth) < std::abs(first.depth - depth) ? second : first;
 }
 
@@ -284,8 +296,8 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, const PixelPlace& pl
     for (int i = 0; i < 4; ++i) {
         const int tapX = corner.x + i % 2;
         const int tapY = corner.y + i / 2;
-        const BlurredTexel& tap =
-            smooth ? blurred_[level].nearest(tapX, tapY) : nearerSurface(level, tapX, tapY, depth);
+        const BlurredTexel tap =
+            smooth ? texelRead(blurred_[level], tapX, tapY) : nearerSurface(level, tapX, tapY, depth);
         const double difference = tap.depth - depth;
         const double q = difference * difference / (constants::bankLevelDepthVariance * width * width);
         const double depthWeight = tap.depth > 0 ? falloff(q) : 0;
