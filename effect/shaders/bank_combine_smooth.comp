@@ -91,7 +91,7 @@ void filterFinestLevel(out Light result[4], ivec2 texel, vec2 beside) {
     int first = fineIndex(texel - 2);
     Light own[2];
     filterFineRow(kernelX, first + 2 * finePitch, own);
-    result = Light[](own[0], own[1], own[0], own[1]);
+    result = Light[](Light(0.0), Light(0.0), Light(0.0), Light(0.0));
     const int rows[4] = int[](0, 1, 3, 4);
     Light upper[4] = Light[](Light(kernelY.outer), Light(kernelY.near), Light(kernelY.far), Light(0.0));
     Light lower[4] = Light[](Light(0.0), Light(kernelY.far), Light(kernelY.near), Light(kernelY.outer));
@@ -107,6 +107,9 @@ void filterFinestLevel(out Light result[4], ivec2 texel, vec2 beside) {
                 result[x + 2] = fma(lower[i], difference, result[x + 2]);
             }
         }
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) { // last, so that only once all of it is rounded
+        result[i] += own[i & 1];
     }
 }
 
