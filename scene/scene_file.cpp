@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 #include <numbers>
 
 namespace nacre::scene {
@@ -152,6 +153,9 @@ public:
             root_.refuse("models", "an array with at least one model");
         }
         for (SceneFileObject& model : models) {
+            ++placements_[model.text("model")];
+        }
+        for (SceneFileObject& model : models) {
             addModel(model);
         }
         std::vector<Light> lights;
@@ -178,7 +182,7 @@ private:
     void addModel(SceneFileObject& object) {
         object.require("model");
         const std::string source = object.text("model");
-        Scene model = source == "gallery" ? gallery() : loadNamed(object, source);
+        Scene model = takeModel(object, source);
         std::array<const char*, units.size()> unitNames{};
         std::ranges::transform(units, unitNames.begin(), &Unit::name);
         const std::size_t unit = object.choice("units", 0, unitNames);
@@ -197,12 +201,13 @@ private:
         append(std::move(model), transform, name);
     }
 
-    /// Built once, however often it is placed: that takes seconds.
-    const Scene& gallery() {
-        if (gallery_.instances.empty()) {
-            gallery_ = makeGallery();
+    /// Built or read once, however often it is placed: that can take seconds.
+    Scene takeModel(const SceneFileObject& object, const std::string& source) {
+        const auto [model, isNew] = models_.try_emplace(source);
+        if (isNew) {
+            model->second = source == "gallery" ? makeGallery() : loadNamed(object, source);
         }
-        return gallery_;
+        return --placements_[source] == 0 ? std::move(model->second) : model->second;
     }
 
     Scene loadNamed(const SceneFileObject& object, const std::string& source) {
@@ -341,7 +346,8 @@ private:
     std::filesystem::path path_;
     SceneFileObject root_;
     Scene scene_;
-    Scene gallery_;
+    std::map<std::string, int> placements_; ///< of each model that are left
+    std::map<std::string, Scene> models_;
 };
 
 } // namespace
