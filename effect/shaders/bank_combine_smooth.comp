@@ -51,8 +51,8 @@ void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
-        Light middle = rows[y + 1][x];
-        result[i] = fma(Light(side.y), rows[y][x] - middle, fma(Light(side.y), rows[y + 2][x] - middle, middle));
+        Light middle = rows[y + 1][x]; // added last, so that only once all of it is rounded
+        result[i] = fma(Light(side.y), (rows[y][x] - middle) + (rows[y + 2][x] - middle), middle);
     }
 }
 
