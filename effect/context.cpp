@@ -280,7 +280,8 @@ NacreResult nacreGetScatterCost(NacreContext context, NacreTechnique technique, 
     }
     return guard(context->messageCallback, context->userData, [&] {
         checkGiven(cost, "cost");
-        *cost = costOf(*context, scatterTechniqueIndex(*context, technique, "technique"));
+        const std::size_t asked = scatterTechniqueIndex(*context, technique, "technique");
+        *cost = costOf(*context, chosenTechniqueIndex(*context, asked, context->materials->summary()));
     });
 }
 

@@ -117,6 +117,8 @@ Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, 
 
 /// The index in `techniques` of a technique the context is made for; throws a Failure naming `field` (scatter.cpp).
 std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique technique, const char* field);
+/// Of that technique or, in its place, of the one that these materials choose (NacreMaterial::secondSurfaces).
+std::size_t chosenTechniqueIndex(const Context& context, std::size_t asked, const MaterialTable::Summary& materials);
 
 } // namespace nacre::effect
 

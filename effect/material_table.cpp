@@ -11,16 +11,30 @@ namespace {
 
 constexpr VkDeviceSize leastAlignment = 128; // a line of a cache, of which tables are made (shared.h)
 
+// The first enabled technique that builds the same table.
+std::size_t tableOf(std::size_t technique, const std::array<bool, techniqueCount>& enabled) {
+    std::size_t first = 0;
+    while (first < technique &&
+           (!enabled[first] || techniques[first]->buildTable != techniques[technique]->buildTable)) {
+        ++first;
+    }
+    return first;
+}
+
 } // namespace
 
 MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
                              const std::array<bool, techniqueCount>& enabled)
     : maxMaterials_(maxMaterials) {
+    for (std::size_t i = 0; i < techniqueCount; ++i) {
+        tables_[i] = tableOf(i, enabled);
+    }
     const VkDeviceSize alignment = std::max(device.limits.minStorageBufferOffsetAlignment, leastAlignment);
     for (std::size_t i = 0; i < sections_.size(); ++i) {
         const bool isParameters = i == techniqueCount;
         Section& section = sections_[i];
-        section.stride = isParameters ? sizeof(MaterialParameters) : enabled[i] ? techniques[i]->tableBytes : 0;
+        const bool ownsTable = !isParameters && enabled[i] && tables_[i] == i;
+        section.stride = isParameters ? sizeof(MaterialParameters) : ownsTable ? techniques[i]->tableBytes : 0;
         section.head = isParameters ? materialIdCount * sizeof(std::uint32_t) : 0;
         section.offset = size_ + section.head;
         const VkDeviceSize bytes = section.head + section.stride * (maxMaterials + 1);
@@ -108,11 +122,13 @@ void MaterialTable::summarize() {
     const Section& section = sections_.back();
     std::uint32_t common = 0xffffffffu;
     summary_.havePreAndPost = false;
+    summary_.haveSecondSurfaces = false;
     for (std::uint32_t slot = 1; slot <= summary_.slotCount; ++slot) {
         MaterialParameters parameters;
         std::memcpy(&parameters, current_.data() + section.offset + section.stride * slot, sizeof(parameters));
         common &= parameters.exchangeGroups;
         summary_.havePreAndPost = summary_.havePreAndPost || parameters.preAndPost != 0;
+        summary_.haveSecondSurfaces = summary_.haveSecondSurfaces || parameters.secondSurfaces != 0;
     }
     summary_.haveSeparate = common == 0;
 }

@@ -15,8 +15,8 @@ namespace nacre::effect {
 
 class MaterialTable {
 public:
-    /// maxMaterials: how many may be set. enabled[i]: whether techniques[i] needs
-    /// its table.
+    /// maxMaterials: how many may be set. enabled[i]: whether techniques[i] needs its table; those that build the same
+    /// one share it.
     MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
                   const std::array<bool, techniqueCount>& enabled);
     void addTo(MemoryLayout& layout);
@@ -30,22 +30,25 @@ public:
 
     VkDescriptorBufferInfo parameters(std::uint32_t frame) const { return range(frame, sections_.back()); }
     VkDescriptorBufferInfo table(std::uint32_t frame, std::size_t technique) const {
-        return range(frame, sections_[technique]);
+        return range(frame, sections_[tables_[technique]]);
     }
     /// One material's table, as set last.
     std::span<const std::byte> currentTable(std::uint32_t id, std::size_t technique) const {
-        const Section& section = sections_[technique];
+        const Section& section = sections_[tables_[technique]];
         return std::span(current_).subspan(section.offset + section.stride * slots_[id], section.stride);
     }
     bool isSet(std::uint32_t id) const { return id < slots_.size() && slots_[id] != 0; }
     std::uint32_t setCount() const { return summary_.slotCount; }
     /// What is known of a frame's materials together.
     struct Summary {
-        std::uint32_t slotCount = 0; ///< how many are set: theirs are the slots 1 … slotCount
-        bool haveSeparate = false;   ///< some may not exchange light: no exchange group holds them all
-        bool havePreAndPost = false; ///< some have NACRE_ALBEDO_PRE_AND_POST
+        std::uint32_t slotCount = 0;     ///< how many are set: theirs are the slots 1 … slotCount
+        bool haveSeparate = false;       ///< some may not exchange light: no exchange group holds them all
+        bool havePreAndPost = false;     ///< some have NACRE_ALBEDO_PRE_AND_POST
+        bool haveSecondSurfaces = false; ///< some have NacreMaterial::secondSurfaces
     };
     const Summary& summary(std::uint32_t frame) const { return frames_[frame].summary; }
+    /// Of the materials set so far.
+    const Summary& summary() const { return summary_; }
 
 private:
     /// One array in the buffer: `head` bytes, then `stride` bytes a slot; slot 0
@@ -65,6 +68,8 @@ private:
     void summarize();
 
     std::uint32_t maxMaterials_;
+    std::array<std::size_t, techniqueCount>
+        tables_{}; ///< whose section each technique reads: its own or an earlier one's
     std::array<Section, techniqueCount + 1> sections_; ///< one a technique, then slots by id and MaterialParameters
     VkDeviceSize size_ = 0;                            ///< of all sections
     Summary summary_;                                  ///< of the next frame

@@ -20,6 +20,12 @@ std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique techniq
     return index;
 }
 
+std::size_t chosenTechniqueIndex(const Context& context, std::size_t asked, const MaterialTable::Summary& materials) {
+    constexpr std::size_t bank = NACRE_TECHNIQUE_BANK - 1;
+    constexpr std::size_t bankSurfaces = NACRE_TECHNIQUE_BANK_SURFACES - 1;
+    return asked == bank && materials.haveSecondSurfaces && context.enabled[bankSurfaces] ? bankSurfaces : asked;
+}
+
 namespace {
 
 constexpr struct {
@@ -64,11 +70,12 @@ void checkBakedKernel(const Context& context, const NacreScatterInfo& info) {
 
 void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatterInfo& info) {
     constexpr const char* name = "NacreScatterInfo";
-    const std::size_t technique = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
+    const std::size_t asked = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
     const VkRect2D area = renderArea(info.view, info.irradiance.extent, context.maxExtent, name);
     const ImageSet given = checkImages(info, area);
     Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
     const MaterialTable::Summary& materials = context.materials->summary(info.frame);
+    const std::size_t technique = chosenTechniqueIndex(context, asked, materials);
     const ScatterParameters parameters = scatterParameters(info, given, area, materials.havePreAndPost);
     checkBakedKernel(context, info);
 

@@ -29,7 +29,7 @@ NacreTechnique convert(Technique technique) {
     return NACRE_TECHNIQUE_DEFAULT;
 }
 
-/// All but bank-surfaces, whose memory and pipelines few pictures need.
+/// All but bank-surfaces, whose memory and pipelines not every picture needs.
 constexpr std::uint32_t startingTechniques = 1u << NACRE_TECHNIQUE_DEFAULT | 1u << NACRE_TECHNIQUE_BANK |
                                              1u << NACRE_TECHNIQUE_SEPARABLE | 1u << NACRE_TECHNIQUE_BURLEY |
                                              1u << NACRE_TECHNIQUE_THESIS | 1u << NACRE_TECHNIQUE_BRUTE;
@@ -84,6 +84,7 @@ NacreMaterial convert(const Material& material, std::vector<NacreLayer>& layers)
     result.strength = static_cast<float>(material.strength);
     result.translucency = static_cast<float>(material.translucency);
     result.scale = static_cast<float>(material.scale);
+    result.secondSurfaces = material.secondSurfaces;
     return result;
 }
 
@@ -230,9 +231,12 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
 }
 
 void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
-    const std::uint32_t technique = 1u << convert(settings.technique);
-    if ((techniques_ & technique) == 0) {
-        techniques_ |= technique;
+    std::uint32_t needed = 1u << convert(settings.technique);
+    if (std::ranges::any_of(materials_, &Material::secondSurfaces)) {
+        needed |= 1u << NACRE_TECHNIQUE_BANK_SURFACES;
+    }
+    if ((techniques_ & needed) != needed) {
+        techniques_ |= needed;
         createContext(gpu);
         setMaterials(materials_);
     }

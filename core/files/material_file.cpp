@@ -62,6 +62,13 @@ void read(const Json& value, const std::string& field, double& result) {
     result = value.get<double>();
 }
 
+void read(const Json& value, const std::string& field, bool& result) {
+    if (!value.is_boolean()) {
+        refuse(field, value, "true or false");
+    }
+    result = value.get<bool>();
+}
+
 void read(const Json& value, const std::string& field, std::string& result) {
     if (!value.is_string()) {
         refuse(field, value, "a string");
@@ -145,6 +152,7 @@ template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& m
     visit("strength", material.strength);
     visit("translucency", material.translucency);
     visit("scale", material.scale);
+    visit("secondSurfaces", material.secondSurfaces);
     visit("albedo", material.albedo);
     visit("roughness", material.roughness);
     visit("specular", material.specular);

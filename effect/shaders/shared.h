@@ -130,7 +130,8 @@ struct MaterialParameters {
     float thickness; // mm, 0 = not authored
     uint exchangeGroups;
     uint preAndPost;
-    uint unused0, unused1;
+    uint secondSurfaces; // NacreMaterial::secondSurfaces, which no shader asks
+    uint unused0;
 };
 
 // Line-spread table of `separable`: entry i is the light between 0 and x = radius·(i / (entries - 1))², so the last

@@ -32,6 +32,10 @@ struct Material {
     double translucency = 0.5;
     /// [1e-6, 1e4] multiplies every length of the profile: 2 scatters twice as far.
     double scale = 1;
+    /// Whether pictures with this material keep two surfaces where one is in front of another, as technique
+    /// `bank-surfaces` does, when they are scattered with `bank`: for light that reaches from fold to fold of a body.
+    /// More accurate there, and slower at edges (docs/scatter.md).
+    bool secondSurfaces = false;
 
     /// [0, 1] diffuse albedo for surfaces that bring none of their own.
     Rgb albedo{0.8, 0.8, 0.8};

@@ -101,7 +101,8 @@ typedef enum NacreTechnique {
                                         them apart; exchange groups are not used; a surface's width on screen does not
                                         follow the material's millimetres */
     NACRE_TECHNIQUE_BANK_SURFACES = 6, /**< NACRE_TECHNIQUE_BANK that keeps two surfaces where one is in front of another:
-                                            more accurate at folds and thin parts, and slower there */
+                                            more accurate at folds and thin parts, and slower there. Materials may ask
+                                            for it (NacreMaterial::secondSurfaces) */
     NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
 } NacreTechnique;
 
@@ -197,8 +198,9 @@ typedef struct NacreContextInfo {
     uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
     uint32_t recordsPerFrame;  /**< [1 … 64] scatter calls, and transmit calls, per frame (views); 0 = 1 */
     uint32_t maxMaterials;     /**< [1 … 65535] most materials that are set, whatever their ids; 0 = 64. Each takes
-                                    NacreCost::materialBytes of every technique, in buffers no larger than the device's
-                                    maxStorageBufferRange: where that is 128 MiB, 65535 of separable, 9350 of bank */
+                                    NacreCost::materialBytes of every technique (bank and bank-surfaces share theirs),
+                                    in buffers no larger than the device's maxStorageBufferRange: where that is 128 MiB,
+                                    65535 of separable, 9350 of bank */
     uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
     NacreMessageCallback messageCallback; /**< null = silent */
     void* userData;            /**< handed to messageCallback */
@@ -228,9 +230,14 @@ typedef struct NacreMaterial {
                                    where a light has none; 0 = not authored */
     uint32_t exchangeGroups;  /**< bit mask: light crosses between two materials on one surface (with the receiver's
                                    profile) when they share a bit; 0 = only within the material */
+    VkBool32 secondSurfaces;  /**< frames with a material that has it are scattered as by
+                                   NACRE_TECHNIQUE_BANK_SURFACES where NACRE_TECHNIQUE_BANK is asked for: for light that
+                                   reaches from fold to fold of a body, as in jade; slower at edges (docs/scatter.md).
+                                   Only in contexts made for both techniques. VK_FALSE: as asked for */
 } NacreMaterial;
 
-/** Skin-like defaults: strength 1, translucency 0.5, scale 1, all exchange groups; the profile is the caller's. */
+/** Skin-like defaults: strength 1, translucency 0.5, scale 1, all exchange groups, no second surfaces; the profile is the
+ *  caller's. */
 static inline NacreMaterial nacreDefaultMaterial(void) {
     NacreMaterial material;
     memset(&material, 0, sizeof(material));
@@ -339,7 +346,7 @@ typedef struct NacreTransmitInfo {
 /** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers (but
  *  for the time of thesisTransmittance) and, but for dispatchesPerMaterial, of materials. */
 typedef struct NacreCost {
-    uint32_t dispatchCount;         /**< with the materials set so far */
+    uint32_t dispatchCount;         /**< with the materials set so far, as everything here */
     uint32_t dispatchesPerMaterial; /**< how many of them each material takes: 2 for NACRE_TECHNIQUE_THESIS, else 0 */
     uint32_t passCount;             /**< what is timed: one a dispatch; all of dispatchesPerMaterial together are one */
     const char* const* passNames; /**< static storage */

@@ -29,7 +29,7 @@ TEST(MaterialFile, ReadsEveryMember) {
         "$schema": "material.schema.json", "name": "jelly", "description": "wobbles",
         "layers": [{"weight": [1, 0.5, 0.25], "variance": 0.5}, {"variance": 2, "weight": [0, 0.5, 0.75]}],
         "albedoUse": "preAndPost", "strength": 0.75, "translucency": 0.25, "scale": 2,
-        "albedo": [0.1, 0.2, 0.3], "roughness": 0.125, "specular": 0.875})",
+        "secondSurfaces": true, "albedo": [0.1, 0.2, 0.3], "roughness": 0.125, "specular": 0.875})",
                                             "test.json");
     EXPECT_EQ(material.name, "jelly");
     EXPECT_EQ(material.description, "wobbles");
@@ -40,6 +40,7 @@ TEST(MaterialFile, ReadsEveryMember) {
     EXPECT_EQ(material.strength, 0.75);
     EXPECT_EQ(material.translucency, 0.25);
     EXPECT_EQ(material.scale, 2);
+    EXPECT_TRUE(material.secondSurfaces);
     EXPECT_EQ(material.albedo, (Rgb{0.1, 0.2, 0.3}));
     EXPECT_EQ(material.roughness, 0.125);
     EXPECT_EQ(material.specular, 0.875);
@@ -52,6 +53,7 @@ TEST(MaterialFile, ReadsAMeanFreePathAndKeepsDefaults) {
     EXPECT_EQ(material.strength, defaults.strength);
     EXPECT_EQ(material.albedo, defaults.albedo);
     EXPECT_EQ(material.albedoUse, defaults.albedoUse);
+    EXPECT_FALSE(material.secondSurfaces);
 }
 
 TEST(MaterialFile, RefusesInOneSentenceNamingFileAndField) {
@@ -81,6 +83,7 @@ TEST(MaterialFile, RefusesInOneSentenceNamingFileAndField) {
         {withLayers(oneLayer, R"(, "strength": 1.5)"), "test.json: strength is 1.5, must be in [0, 1]"},
         {withLayers(oneLayer, R"(, "scale": 0)"), "test.json: scale is 0, must be in [1e-06, 10000]"},
         {withLayers(oneLayer, R"(, "name": 7)"), "test.json: name is 7, must be a string"},
+        {withLayers(oneLayer, R"(, "secondSurfaces": 1)"), "test.json: secondSurfaces is 1, must be true or false"},
         {withLayers(oneLayer, R"(, "albedoUse": "pre")"),
          "test.json: albedoUse is \"pre\", must be \"post\" or \"preAndPost\""},
         {withLayers(oneLayer, R"(, "meanFreePath": [1, 1, 1])"),

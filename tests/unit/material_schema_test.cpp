@@ -129,6 +129,7 @@ TEST(Presets, RoundTripThroughFiles) {
         EXPECT_EQ(read.strength, preset.strength);
         EXPECT_EQ(read.translucency, preset.translucency);
         EXPECT_EQ(read.scale, preset.scale);
+        EXPECT_EQ(read.secondSurfaces, preset.secondSurfaces);
         EXPECT_EQ(read.albedo, preset.albedo);
         EXPECT_EQ(read.roughness, preset.roughness);
         EXPECT_EQ(read.specular, preset.specular);
