@@ -101,7 +101,7 @@ Material motherOfPearl() {
 }
 
 // Whether light reaches from one fold of a body as large as a hand to the next. Jade (8.6 mm²) has 42.7 dB on the folds
-// of the Stanford dragon without second surfaces and 46.1 with them, marble (1.6 mm²) 46.0 and 48.8 (docs/scatter.md).
+// of the Stanford dragon without second surfaces and 46.1 with them, marble (1.5 mm²) 46.0 and 48.8 (docs/scatter.md).
 bool reachesFar(const Material& material) {
     constexpr double far = 4; // mm² per axis, of the channel that reaches farthest
     Rgb variance{};
