@@ -82,8 +82,8 @@ std::string describe(const Material& material) {
     text << material.name << ": " << material.description << '\n'
          << "  strength " << material.strength << ", translucency " << material.translucency << ", scale "
          << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "pre-and-post")
-         << ", second surfaces " << (material.secondSurfaces ? "yes" : "no") << ", roughness " << material.roughness
-         << ", specular " << material.specular << '\n'
+         << ", second surfaces " << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness "
+         << material.roughness << ", specular " << material.specular << '\n'
          << "  " << std::setw(34) << "" << std::setw(11) << "red" << std::setw(11) << "green" << std::setw(11) << "blue"
          << '\n';
     return text.str() + row("albedo", material.albedo) + describeLayers(material) + describeProfile(material);

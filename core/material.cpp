@@ -4,6 +4,8 @@
 #include "nacre/burley.hpp"
 #include "nacre/gaussian.hpp"
 
+#include <algorithm>
+
 namespace nacre {
 namespace {
 
@@ -55,6 +57,14 @@ std::vector<Layer> makeLayers(const Material& material) {
         return burleyLayers(scaledMeanFreePath(material));
     }
     return scaled(normalized(material.layers), material.scale);
+}
+
+bool asksForSecondSurfaces(const Material& material) {
+    if (material.secondSurfaces) {
+        return *material.secondSurfaces;
+    }
+    const std::unique_ptr<Profile> profile = makeProfile(material);
+    return std::max({profile->rmsRadius(0), profile->rmsRadius(1), profile->rmsRadius(2)}) >= secondSurfacesRadius;
 }
 
 std::string findFault(const Material& material) {

@@ -100,19 +100,6 @@ Material motherOfPearl() {
     return material;
 }
 
-// Whether light reaches from one fold of a body as large as a hand to the next. Jade (8.6 mm²) has 42.7 dB on the folds
-// of the Stanford dragon without second surfaces and 46.1 with them, marble (1.5 mm²) 46.0 and 48.8 (docs/scatter.md).
-bool reachesFar(const Material& material) {
-    constexpr double far = 4; // mm² per axis, of the channel that reaches farthest
-    Rgb variance{};
-    for (const Layer& layer : makeLayers(material)) {
-        for (std::size_t channel = 0; channel < variance.size(); ++channel) {
-            variance[channel] += layer.weight[channel] * layer.variance;
-        }
-    }
-    return *std::max_element(variance.begin(), variance.end()) >= far;
-}
-
 } // namespace
 
 std::span<const Material> presets() {
@@ -121,9 +108,6 @@ std::span<const Material> presets() {
         appendMeasuredPresets(result);
         for (const Material& material : {wax(), jade(), leaf(), motherOfPearl()}) {
             result.push_back(material);
-        }
-        for (Material& material : result) {
-            material.secondSurfaces = reachesFar(material);
         }
         return result;
     }();

@@ -84,7 +84,7 @@ NacreMaterial convert(const Material& material, std::vector<NacreLayer>& layers)
     result.strength = static_cast<float>(material.strength);
     result.translucency = static_cast<float>(material.translucency);
     result.scale = static_cast<float>(material.scale);
-    result.secondSurfaces = material.secondSurfaces;
+    result.secondSurfaces = asksForSecondSurfaces(material);
     return result;
 }
 
@@ -232,7 +232,7 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
 
 void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
     std::uint32_t needed = 1u << convert(settings.technique);
-    if (std::ranges::any_of(materials_, &Material::secondSurfaces)) {
+    if (std::ranges::any_of(materials_, asksForSecondSurfaces)) {
         needed |= 1u << NACRE_TECHNIQUE_BANK_SURFACES;
     }
     if ((techniques_ & needed) != needed) {

@@ -13,6 +13,14 @@ renderer::RenderSettings settingsOf(const Configuration& configuration) {
     return settings;
 }
 
+/// None asks for another technique than the one that is measured.
+std::vector<Material> askingForNothing(std::vector<Material> materials) {
+    for (Material& material : materials) {
+        material.secondSurfaces = false;
+    }
+    return materials;
+}
+
 } // namespace
 
 void Stage::select(const Configuration& configuration) {
@@ -28,7 +36,7 @@ void Stage::select(const Configuration& configuration) {
     }
     actor_ = &found->second;
     if (actor_->configuration == nullptr || actor_->configuration->materials != configuration.materials) {
-        actor_->renderer.setMaterials(configuration.materials);
+        actor_->renderer.setMaterials(askingForNothing(configuration.materials));
     }
     actor_->renderer.setEffect(configuration.effect);
     actor_->configuration = &configuration;

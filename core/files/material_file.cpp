@@ -62,7 +62,7 @@ void read(const Json& value, const std::string& field, double& result) {
     result = value.get<double>();
 }
 
-void read(const Json& value, const std::string& field, bool& result) {
+void read(const Json& value, const std::string& field, std::optional<bool>& result) {
     if (!value.is_boolean()) {
         refuse(field, value, "true or false");
     }
@@ -161,7 +161,7 @@ template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& m
 Json format(AlbedoUse use) {
     return albedoUseNames[static_cast<std::size_t>(use)].second;
 }
-Json format(const std::optional<Rgb>& value) {
+template <typename Value> Json format(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 template <typename Value> Json format(const Value& value) {

@@ -40,7 +40,7 @@ TEST(MaterialFile, ReadsEveryMember) {
     EXPECT_EQ(material.strength, 0.75);
     EXPECT_EQ(material.translucency, 0.25);
     EXPECT_EQ(material.scale, 2);
-    EXPECT_TRUE(material.secondSurfaces);
+    EXPECT_EQ(material.secondSurfaces, true);
     EXPECT_EQ(material.albedo, (Rgb{0.1, 0.2, 0.3}));
     EXPECT_EQ(material.roughness, 0.125);
     EXPECT_EQ(material.specular, 0.875);
@@ -53,7 +53,7 @@ TEST(MaterialFile, ReadsAMeanFreePathAndKeepsDefaults) {
     EXPECT_EQ(material.strength, defaults.strength);
     EXPECT_EQ(material.albedo, defaults.albedo);
     EXPECT_EQ(material.albedoUse, defaults.albedoUse);
-    EXPECT_FALSE(material.secondSurfaces);
+    EXPECT_EQ(material.secondSurfaces, std::nullopt);
 }
 
 TEST(MaterialFile, RefusesInOneSentenceNamingFileAndField) {

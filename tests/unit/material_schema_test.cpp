@@ -52,7 +52,8 @@ TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, property] : schema().at("properties").items()) {
         Json material = key == "layers" ? minimalLayers() : minimal();
         if (!material.contains(key)) {
-            material[key] = property.contains("default") ? property["default"] : Json("text");
+            const Json value = property.value("type", "") == "boolean" ? Json(true) : Json("text");
+            material[key] = property.value("default", value);
         }
         EXPECT_TRUE(accepts(material)) << material;
     }
@@ -68,7 +69,7 @@ TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, value] : written.items()) {
         EXPECT_TRUE(schema().at("properties").contains(key)) << key;
     }
-    EXPECT_EQ(written.size() + 2, schema().at("properties").size()); // meanFreePath, $schema
+    EXPECT_EQ(written.size() + 3, schema().at("properties").size()); // meanFreePath, secondSurfaces, $schema
 }
 
 TEST(MaterialSchema, HasTheRangesOfTheReader) {

@@ -96,6 +96,29 @@ TEST(Material, RefusesAProfileForEveryFaultThatFindFaultFinds) {
     EXPECT_THROW(makeLayers(material), std::invalid_argument);
 }
 
+TEST(Material, AsksForSecondSurfacesWhereItsLightGoesFar) {
+    Material material;
+    material.layers = {{{1, 1, 0.5}, 1}, {{0, 0, 0.5}, 8.02}}; // blue: an rms radius of 3.003 mm
+    EXPECT_TRUE(asksForSecondSurfaces(material));
+    material.scale = 0.99;
+    EXPECT_FALSE(asksForSecondSurfaces(material));
+    material.secondSurfaces = true;
+    EXPECT_TRUE(asksForSecondSurfaces(material));
+    material.scale = 10;
+    material.secondSurfaces = false;
+    EXPECT_FALSE(asksForSecondSurfaces(material));
+    for (const auto& [name, asks] : {std::pair{"skin", false},
+                                     {"skin-burley", false},
+                                     {"marble", false},
+                                     {"leaf", false},
+                                     {"nacre", false},
+                                     {"jade", true},
+                                     {"wax", true},
+                                     {"whole-milk", true}}) {
+        EXPECT_EQ(asksForSecondSurfaces(*findPreset(name)), asks) << name;
+    }
+}
+
 TEST(Presets, AreWithoutFaultAndHaveDifferentNames) {
     std::set<std::string> names;
     for (const Material& preset : presets()) {

@@ -208,7 +208,7 @@ NacreMaterial toNacre(const Material& material, std::vector<NacreLayer>& storage
     result.strength = static_cast<float>(material.strength);
     result.translucency = static_cast<float>(material.translucency);
     result.scale = static_cast<float>(material.scale);
-    result.secondSurfaces = material.secondSurfaces;
+    result.secondSurfaces = material.secondSurfaces.value_or(false);
     return result;
 }
 
