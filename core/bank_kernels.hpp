@@ -23,8 +23,9 @@ struct BankForm {
 /// Built once.
 const BankForm& bankForm();
 
-/// The mixture x minimising xᵀ·gram·x − 2·rightHandSideᵀ·x, with the bank's gram, over x ≥ 0, Σx = 1 (active set, at most
-/// a few 8x8 solves). `x` holds a feasible start, such as the mixture of a similar problem, and receives the result.
+/// The mixture x minimising xᵀ·gram·x − 2·rightHandSideᵀ·x, with the bank's gram, over x ≥ 0, Σx = 1 (active set, at
+/// most a few 8x8 solves). `x` holds a feasible start, such as the mixture of a similar problem, and receives the
+/// result.
 void solveMixture(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x);
 
 /// Leaves out of such a mixture the kernels that have less than bankLeastShare, the smallest first, and solves for the

@@ -58,9 +58,9 @@ struct FloatImage {
 struct Surface {
     std::string name;
     glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1};
-    float metallic = 0;      ///< [0, 1]
-    float roughness = 0.5f;  ///< [0, 1]
-    float specular = 0.5f;   ///< [0, 1] F0 = 0.08·specular
+    float metallic = 0;     ///< [0, 1]
+    float roughness = 0.5f; ///< [0, 1]
+    float specular = 0.5f;  ///< [0, 1] F0 = 0.08·specular
     float normalScale = 1;
     glm::vec3 emission{0};
     std::uint32_t baseColorTexture = none;
@@ -90,7 +90,7 @@ struct Light {
     std::string name;
     LightKind kind = LightKind::Directional;
     glm::vec3 color{1};
-    float intensity = 1;           ///< directional: lux-like irradiance; spot and point: irradiance at one metre
+    float intensity = 1; ///< directional: lux-like irradiance; spot and point: irradiance at one metre
     glm::vec3 position{0};
     glm::vec3 direction{0, -1, 0}; ///< the way the light travels
     float range = 0;               ///< [m] 0 = unlimited
@@ -118,7 +118,7 @@ struct Camera {
 struct Environment {
     std::optional<FloatImage> image;
     float intensity = 1;
-    float rotation = 0;                ///< [rad] about +Y
+    float rotation = 0; ///< [rad] about +Y
     glm::vec3 zenith{0.25f, 0.32f, 0.45f};
     glm::vec3 horizon{0.55f, 0.55f, 0.55f};
     glm::vec3 ground{0.18f, 0.16f, 0.14f};

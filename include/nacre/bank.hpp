@@ -30,16 +30,16 @@ double bankVariance(int kernel);
 std::span<const double> bankEdgeTail(int kernel);
 
 /// The mixture of kernels whose response to a shadow edge, at `pixelsPerMillimeter` [> 0], is closest to the profile's:
-/// least squares of the edge response plus a tenth of that of its derivative, over the 256 px next to the edge. Shares are
-/// 0 or at least bankLeastShare.
+/// least squares of the edge response plus a tenth of that of its derivative, over the 256 px next to the edge. Shares
+/// are 0 or at least bankLeastShare.
 BankWeights projectOnBank(const Profile& profile, double pixelsPerMillimeter);
 
 /// A profile's mixtures over all scales, as the shader reads them.
 class BankTable {
 public:
     /// Bins of the table per doubling of px/mm. Weights between two bins are interpolated linearly: with 8 the edge
-    /// response is within 4e-4 of the projection at that very scale, with 4 within 1.5e-3; where one bin leaves a kernel
-    /// out and the next does not, within 3e-3 (tests/unit/bank_test.cpp).
+    /// response is within 4e-4 of the projection at that very scale, with 4 within 1.5e-3; where one bin leaves a
+    /// kernel out and the next does not, within 3e-3 (tests/unit/bank_test.cpp).
     static constexpr int binsPerOctave = 8;
     /// The table spans footprints (rms radius of the widest channel) of 2^firstOctave to 2^lastOctave px. Below, every
     /// channel is the identity; above, every channel that is at most 16 times narrower is wider than the bank.

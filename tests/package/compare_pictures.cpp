@@ -1,5 +1,5 @@
-// compare_pictures A B: whether two PNGs are one picture: same size, and a difference of 40 dB or less noise: two 8-bit steps,
-// more than rounding on different devices makes.
+// compare_pictures A B: whether two PNGs are one picture: same size, and a difference of 40 dB or less noise: two 8-bit
+// steps, more than rounding on different devices makes.
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
 #include <stb/stb_image.h>

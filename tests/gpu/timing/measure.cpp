@@ -8,8 +8,8 @@
 namespace nacre::tests {
 namespace {
 
-// The times of `repeats` recordings in one command buffer, from each one's start to the next one's; no timestamp inside, so
-// that passes which do not depend on each other may overlap, as they do in an engine.
+// The times of `repeats` recordings in one command buffer, from each one's start to the next one's; no timestamp
+// inside, so that passes which do not depend on each other may overlap, as they do in an engine.
 std::vector<double> runFrames(Gpu& gpu, const Variant& variant, std::uint32_t repeats) {
     variant.begin();
     return gpu.runTimed(repeats + 1, [&](VkCommandBuffer commandBuffer, VkQueryPool pool) {

@@ -5,8 +5,8 @@
 
 namespace nacre::tests {
 
-/// Something to time: `record` writes timestamps first … first + passes.size() around and between its passes, or none where
-/// the pool is null.
+/// Something to time: `record` writes timestamps first … first + passes.size() around and between its passes, or none
+/// where the pool is null.
 struct Variant {
     std::string name;
     std::vector<std::string> passes;
