@@ -21,7 +21,9 @@ Json describe(const renderer::DeviceDescription& device) {
 }
 
 Json describe(const Material& material) {
-    return {{"name", material.name}, {"layers", material.layers.size()}};
+    return {{"name", material.name},
+            {"layers", material.layers.size()},
+            {"secondSurfaces", asksForSecondSurfaces(material)}};
 }
 
 Json describe(const scene::Camera& camera) {

@@ -134,6 +134,8 @@ TEST_F(RenderTest, GalleryHasItsTrianglesAndMaterialsWhichOneReplaces) {
     const nlohmann::json& materials = report["scene"]["materials"];
     EXPECT_TRUE(
         std::ranges::any_of(materials, [](const nlohmann::json& material) { return material["layers"] == 10; }));
+    EXPECT_TRUE(std::ranges::none_of(
+        materials, [](const nlohmann::json& material) { return material["secondSurfaces"] == true; }));
     EXPECT_EQ(report["settings"]["width"], width);
     EXPECT_FALSE(report["device"]["name"].get<std::string>().empty());
     EXPECT_FALSE(report["frame"]["passes"].empty());
@@ -143,6 +145,7 @@ TEST_F(RenderTest, GalleryHasItsTrianglesAndMaterialsWhichOneReplaces) {
     // Another material replaces those of the bodies, and of nothing else.
     const nlohmann::json one = render({"--material", "wax"});
     EXPECT_EQ(one["scene"]["materialCount"], 1);
+    EXPECT_EQ(one["scene"]["materials"][0]["secondSurfaces"], true);
     EXPECT_EQ(one["frame"]["subsurfaceCoverage"], report["frame"]["subsurfaceCoverage"]);
 }
 
