@@ -34,6 +34,21 @@ constexpr std::uint32_t startingTechniques = 1u << NACRE_TECHNIQUE_DEFAULT | 1u 
                                              1u << NACRE_TECHNIQUE_SEPARABLE | 1u << NACRE_TECHNIQUE_BURLEY |
                                              1u << NACRE_TECHNIQUE_THESIS | 1u << NACRE_TECHNIQUE_BRUTE;
 
+/// The materials, once each is known to be valid.
+const std::vector<Material>& checked(const std::vector<Material>& materials) {
+    for (const Material& material : materials) {
+        if (const std::string fault = findFault(material); !fault.empty()) {
+            throw RendererError("the material '" + material.name + "' is not valid: " + fault);
+        }
+    }
+    return materials;
+}
+
+/// Those that materials, which are valid, ask for besides.
+std::uint32_t techniquesOf(const std::vector<Material>& materials) {
+    return std::ranges::any_of(materials, asksForSecondSurfaces) ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0;
+}
+
 void copy(float (&target)[3], const glm::vec3& value) {
     std::copy_n(glm::value_ptr(value), 3, target);
 }
@@ -114,7 +129,10 @@ vk::ImageUsageFlags effectUsage(NacreImageSlot slot) {
 
 Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
                        const std::vector<PlacedLight>& lights)
-    : info_(info), materials_(materials), techniques_(startingTechniques), message_(std::make_unique<std::string>()) {
+    : info_(info),
+      materials_(checked(materials)),
+      techniques_(startingTechniques | techniquesOf(materials_)),
+      message_(std::make_unique<std::string>()) {
     std::transform(lights.begin(), lights.end(), std::back_inserter(lights_),
                    [](const PlacedLight& light) { return convert(light); });
     constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
@@ -156,13 +174,11 @@ void Subsurface::check(NacreResult result) const {
 }
 
 void Subsurface::setMaterials(const std::vector<Material>& materials) {
+    checked(materials);
     std::vector<std::vector<NacreLayer>> layers(materials.size());
     std::vector<NacreMaterial> converted;
     std::vector<float> translucencies{0};
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        if (const std::string fault = findFault(materials[i]); !fault.empty()) {
-            throw RendererError("the material '" + materials[i].name + "' is not valid: " + fault);
-        }
         converted.push_back(convert(materials[i], layers[i]));
         translucencies.push_back(converted.back().translucency);
     }
@@ -231,10 +247,7 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
 }
 
 void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
-    std::uint32_t needed = 1u << convert(settings.technique);
-    if (std::ranges::any_of(materials_, asksForSecondSurfaces)) {
-        needed |= 1u << NACRE_TECHNIQUE_BANK_SURFACES;
-    }
+    const std::uint32_t needed = 1u << convert(settings.technique) | techniquesOf(materials_);
     if ((techniques_ & needed) != needed) {
         techniques_ |= needed;
         createContext(gpu);
