@@ -4,10 +4,10 @@
 namespace nacre {
 namespace {
 
-using Problem = SimplexProblem<bankSize>;
+using MixtureProblem = SimplexProblem<bankSize>;
 
 // The kernel with the smallest share, if that is less than bankLeastShare, else −1.
-int smallestShare(const Problem::Vector& x) {
+int smallestShare(const MixtureProblem::Vector& x) {
     int smallest = -1;
     double least = bankLeastShare;
     for (int kernel = 0; kernel < bankSize; ++kernel) {
@@ -20,7 +20,8 @@ int smallestShare(const Problem::Vector& x) {
 }
 
 // The same problem with no kernels but those that `x` has a share of.
-void solveWithin(const Problem::Matrix& gram, const Problem::Vector& rightHandSide, Problem::Vector& x) {
+void solveWithin(const MixtureProblem::Matrix& gram, const MixtureProblem::Vector& rightHandSide,
+                 MixtureProblem::Vector& x) {
     std::array<int, bankSize> kernels{};
     int count = 0;
     double sum = 0;
@@ -30,9 +31,9 @@ void solveWithin(const Problem::Matrix& gram, const Problem::Vector& rightHandSi
             sum += x[kernel];
         }
     }
-    Problem::Matrix part{};
-    Problem::Vector partRightHandSide{};
-    Problem::Vector shares{};
+    MixtureProblem::Matrix part{};
+    MixtureProblem::Vector partRightHandSide{};
+    MixtureProblem::Vector shares{};
     for (int i = 0; i < count; ++i) {
         partRightHandSide[i] = rightHandSide[kernels[i]];
         shares[i] = x[kernels[i]] / sum;
@@ -40,7 +41,7 @@ void solveWithin(const Problem::Matrix& gram, const Problem::Vector& rightHandSi
             part[i][k] = gram[kernels[i]][kernels[k]];
         }
     }
-    Problem(part, partRightHandSide, count).solve(shares);
+    MixtureProblem(part, partRightHandSide, count).solve(shares);
     for (int i = 0; i < count; ++i) {
         x[kernels[i]] = shares[i];
     }
@@ -49,7 +50,7 @@ void solveWithin(const Problem::Matrix& gram, const Problem::Vector& rightHandSi
 } // namespace
 
 void solveMixture(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x) {
-    Problem(bankForm().gram, rightHandSide).solve(x);
+    MixtureProblem(bankForm().gram, rightHandSide).solve(x);
 }
 
 void leaveOutSmallShares(const std::array<double, bankSize>& rightHandSide, std::array<double, bankSize>& x) {

@@ -20,9 +20,8 @@ namespace {
 
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords |
                            aiProcess_TransformUVCoords | aiProcess_FlipUVs | aiProcess_GlobalScale;
-/// Deeper hierarchies and more placed meshes than this are an attack or an accident.
+/// A deeper hierarchy than this is an attack or an accident.
 constexpr int maxDepth = 1000;
-constexpr std::size_t maxInstances = std::size_t{1} << 20;
 
 glm::vec3 convert(const aiVector3D& v) {
     return {v.x, v.y, v.z};
@@ -33,9 +32,9 @@ glm::mat4 convert(const aiMatrix4x4& m) {
             glm::vec4(m.a4, m.b4, m.c4, m.d4)};
 }
 
-class Importer {
+class AssimpImporter {
 public:
-    Importer(const std::filesystem::path& file, const aiScene& source, Scene& scene)
+    AssimpImporter(const std::filesystem::path& file, const aiScene& source, Scene& scene)
         : name_(file.string()),
           extension_(file.extension().string()),
           source_(source),
@@ -259,7 +258,7 @@ Scene importFile(const std::filesystem::path& file) {
     }
     Scene scene;
     scene.name = file.stem().string();
-    Importer(file, *source, scene).run();
+    AssimpImporter(file, *source, scene).run();
     return scene;
 }
 

@@ -10,9 +10,6 @@
 namespace nacre::scene {
 namespace {
 
-/// Instances of one file: more than this is an attack or an accident.
-constexpr std::size_t maxInstances = std::size_t{1} << 20;
-
 std::string nodeField(int node) {
     return "nodes[" + std::to_string(node) + "]";
 }
@@ -61,9 +58,9 @@ glm::mat4 localTransform(const GltfFile& file, int index) {
     return transform;
 }
 
-class Importer {
+class GltfImporter {
 public:
-    Importer(const GltfFile& file, Scene& scene) : file_(file), scene_(scene), materials_(file, scene) {}
+    GltfImporter(const GltfFile& file, Scene& scene) : file_(file), scene_(scene), materials_(file, scene) {}
 
     void run() {
         placeNodes();
@@ -268,7 +265,7 @@ Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> 
     const GltfFile file = openGltf(path, bytes);
     Scene scene;
     scene.name = path.stem().string();
-    Importer(file, scene).run();
+    GltfImporter(file, scene).run();
     return scene;
 }
 

@@ -15,6 +15,9 @@ inline constexpr float creaseAngle = 1.0471976f;
 /// Largest coordinate that is accepted, in either direction: beyond it, squared lengths leave the range of a float.
 inline constexpr float maxCoordinate = 1e15f;
 
+/// Meshes that one file places: more is an attack or an accident.
+inline constexpr std::size_t maxInstances = std::size_t{1} << 20;
+
 /// How the indices of a primitive make triangles (the values are glTF's).
 enum class PrimitiveMode {
     Points = 0,
