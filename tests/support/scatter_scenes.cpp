@@ -9,7 +9,7 @@
 namespace nacre::tests {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double skinReach = 12.5; // mm, 99.7 % of d'Eon's skin
 
 // Hard shadow edges, bright and dark discs, and a corner with noise in every pixel. Fixed to the scene.
@@ -36,7 +36,7 @@ public:
         const double lit = crossings % 2 == 0 ? 0.85 : 0.05;
         Rgb light{0.06 + lit * facing, 0.08 + 0.95 * lit * facing, 0.10 + 0.9 * lit * facing};
         for (const Disc& disc : discs_) {
-            if (std::hypot(x - disc.x, y - disc.y) < disc.radius) {
+            if (isWithin(x - disc.x, y - disc.y, disc.radius)) {
                 for (int channel = 0; channel < 3; ++channel) {
                     light[channel] = disc.color[channel] * (0.2 + 0.8 * facing);
                 }

@@ -40,7 +40,7 @@ Surface makePlane(Dice& dice, const Frame& frame) {
     }
     return [=](double x, double y, double) {
         const bool open = std::any_of(holes.begin(), holes.end(),
-                                      [&](const auto& hole) { return std::hypot(x - hole[0], y - hole[1]) < hole[2]; });
+                                      [&](const auto& hole) { return isWithin(x - hole[0], y - hole[1], hole[2]); });
         return Hit{0, open ? 0 : stripe(x, y, frame.materialCount), {0, 0, -1}};
     };
 }
@@ -136,7 +136,7 @@ Surface makeThin(Dice& dice, const Frame& frame) {
             }
         }
         for (const auto& dot : dots) {
-            if (std::hypot(x - dot[0], y - dot[1]) < dot[2] && dot[3] < nearest.depth) {
+            if (isWithin(x - dot[0], y - dot[1], dot[2]) && dot[3] < nearest.depth) {
                 nearest = {dot[3], 1, {0, 0, -1}};
             }
         }

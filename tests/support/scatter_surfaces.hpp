@@ -41,6 +41,9 @@ struct Frame {
     int materialCount = 0;
 };
 
+inline bool isWithin(double x, double y, double radius) {
+    return x * x + y * y < radius * radius;
+}
 /// [0, 1] at whole places, different at each.
 double latticeNoise(int x, int y, std::uint32_t seed);
 /// A material in wavy stripes.

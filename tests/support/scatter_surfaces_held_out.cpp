@@ -37,9 +37,12 @@ Surface makeTerrain(Dice& dice, const Frame& frame) {
     const auto seed = static_cast<std::uint32_t>(dice(1, 1e6));
     const auto depthAt = [=](double x, double y) {
         double depth = 0;
+        double scale = 1.0 / 60;
+        double height = 30;
         for (int octave = 0; octave < 5; ++octave) {
-            const double scale = std::pow(2.1, octave) / 60;
-            depth += 30 * std::pow(0.5, octave) * (smoothNoise(x * scale, y * scale, seed + octave) - 0.5);
+            depth += height * (smoothNoise(x * scale, y * scale, seed + octave) - 0.5);
+            scale *= 2.1;
+            height *= 0.5;
         }
         return depth;
     };
@@ -89,7 +92,7 @@ Surface makeSheets(Dice& dice, const Frame& frame) {
     return [=](double x, double y, double) {
         const double dx = x - spacing * std::round(x / spacing);
         const double dy = y - spacing * std::round(y / spacing);
-        const bool open = std::hypot(dx, dy) < radius;
+        const bool open = isWithin(dx, dy, radius);
         return open ? Hit{14, 1 + 1 % frame.materialCount} : Hit{0, 1};
     };
 }
@@ -109,7 +112,7 @@ Surface makeFoliage(Dice& dice, const Frame& frame) {
         Hit nearest{1e3, 0};
         for (const Disc& disc : discs) {
             const double depth = disc.depth + disc.slopeX * (x - disc.x) + disc.slopeY * (y - disc.y);
-            if (std::hypot(x - disc.x, y - disc.y) < disc.radius && depth < nearest.depth) {
+            if (isWithin(x - disc.x, y - disc.y, disc.radius) && depth < nearest.depth) {
                 nearest = {depth, disc.material, slopeNormal(x, y, depth, disc.slopeX, disc.slopeY, distance)};
             }
         }

@@ -83,7 +83,7 @@ TEST(BankTwin, IsAsCloseAtTheBorder) {
 void expectBeforeTheCamera(std::span<const SceneKind> kinds) {
     for (const SceneKind kind : kinds) {
         for (std::uint32_t seed = 1; seed <= 16; ++seed) {
-            const ScatterScene scene = makeScatterScene({.kind = kind, .seed = seed});
+            const ScatterScene scene = makeScatterScene({.kind = kind, .width = 160, .height = 90, .seed = seed});
             for (std::size_t i = 0; i < scene.depth.size(); ++i) {
                 ASSERT_TRUE(scene.materialId[i] == 0 || scene.depth[i] > 0) << scene.name << ", seed " << seed;
             }
