@@ -119,6 +119,10 @@ void print(const Timing& timing) {
     std::puts("");
 }
 
+std::vector<NacreTechnique> techniquesOr(const TimingOptions& options, std::vector<NacreTechnique> usual) {
+    return options.techniques.empty() ? std::move(usual) : options.techniques;
+}
+
 // The techniques in turn, the first of them twice (their difference is the noise floor), and the copy pass.
 void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechnique> techniques,
                     const TimingOptions& options, std::vector<Row>& rows) {
@@ -186,12 +190,12 @@ void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
                               {.extent = options.extent, .layers = 8, .materials = 1},
                               {.extent = options.extent, .footprint = 60, .coverage = 0.25},
                               {.extent = options.extent, .footprint = 60, .coverage = 0}};
+    const std::vector<NacreTechnique> techniques = techniquesOr(options, {NACRE_TECHNIQUE_BANK});
     for (const Subject& plane : planes) {
-        measureSubject(gpu, plane, options.techniques, options, rows);
+        measureSubject(gpu, plane, techniques, options, rows);
     }
     for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
-        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, options.techniques, options,
-                       rows);
+        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, techniques, options, rows);
     }
 }
 
@@ -216,30 +220,32 @@ void runTargets(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) 
 }
 
 void runFootprints(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
+    const std::vector<NacreTechnique> techniques = techniquesOr(options, realTimeTechniques());
     std::vector<Row> rows;
     for (const double footprint : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}) {
-        measureSubject(gpu, {.extent = options.extent, .footprint = footprint, .materials = 1}, realTimeTechniques(),
-                       options, rows);
+        measureSubject(gpu, {.extent = options.extent, .footprint = footprint, .materials = 1}, techniques, options,
+                       rows);
     }
     printSlopes("px of footprint", rows, [](const Subject& subject) { return subject.footprint; });
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
 void runLayers(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
+    const std::vector<NacreTechnique> techniques = techniquesOr(options, realTimeTechniques());
     std::vector<Row> rows;
     for (const int layers : {1, 2, 4, 8, 16, 32}) {
-        measureSubject(gpu, {.extent = options.extent, .layers = layers, .materials = 1}, realTimeTechniques(), options,
-                       rows);
+        measureSubject(gpu, {.extent = options.extent, .layers = layers, .materials = 1}, techniques, options, rows);
     }
     printSlopes("layer", rows, [](const Subject& subject) { return static_cast<double>(subject.layers); });
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
 void runMaterials(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
+    const std::vector<NacreTechnique> techniques = techniquesOr(options, realTimeTechniques());
     std::vector<Row> rows;
     // Five and more have 16-bit ids; so have all of this series.
     for (const int materials : {5, 10, 50, 100, 500, 1000}) {
-        measureSubject(gpu, {.extent = options.extent, .materials = materials}, realTimeTechniques(), options, rows);
+        measureSubject(gpu, {.extent = options.extent, .materials = materials}, techniques, options, rows);
     }
     printSlopes("material", rows, [](const Subject& subject) { return static_cast<double>(subject.materials); });
     all.insert(all.end(), rows.begin(), rows.end());

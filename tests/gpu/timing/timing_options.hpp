@@ -15,8 +15,8 @@ namespace nacre::tests {
 struct TimingOptions {
     std::string suite = "all";
     std::string csv = "effect_timing.csv";
-    VkExtent2D extent{1920, 1080};                                // targets are measured at twice that, too
-    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK}; // of the suite `scenes`
+    VkExtent2D extent{1920, 1080};          // targets are measured at twice that, too
+    std::vector<NacreTechnique> techniques; // none: what a suite measures usually
     MeasureSettings measure;
     bool shaderFloat16 = true;                       // where the device has it
     std::vector<VkBool32> skipUnscattered{VK_FALSE}; // one after the other
