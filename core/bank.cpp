@@ -85,8 +85,8 @@ BankWeights projectOnBank(const Profile& profile, double pixelsPerMillimeter) {
 
 BankTable::BankTable(const Profile& profile) : halves_(binCount * halvesPerBin) {
     const double widest = std::max({profile.rmsRadius(0), profile.rmsRadius(1), profile.rmsRadius(2), 1e-6});
-    const double finest = std::exp2(lastOctave) / widest;
-    binOffset_ = static_cast<float>(binsPerOctave * (std::log2(widest) - firstOctave));
+    firstBin_ = static_cast<int>(std::lround(binsPerOctave * (firstOctave - std::log2(widest))));
+    const double finest = std::exp2((firstBin_ + binCount - 1.0) / binsPerOctave);
     for (int channel = 0; channel < 3; ++channel) {
         const std::vector<double> samples = sampleTail(profile, channel, finest);
         Vector mixture{1}; // the neighbouring bin's mixture is the start of the next
@@ -104,8 +104,7 @@ BankTable::BankTable(const Profile& profile) : halves_(binCount * halvesPerBin) 
 }
 
 BankWeights BankTable::at(double pixelsPerMillimeter) const {
-    const double position =
-        std::clamp(binsPerOctave * std::log2(pixelsPerMillimeter) + binOffset_, 0.0, binCount - 1.0);
+    const double position = std::clamp(binsPerOctave * std::log2(pixelsPerMillimeter) - firstBin_, 0.0, binCount - 1.0);
     const int bin = std::min(static_cast<int>(position), binCount - 2);
     const double fraction = position - bin;
     BankWeights weights{};

@@ -26,10 +26,10 @@ namespace constants {
 } // namespace constants
 
 static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
-static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
-              constants::bankBinCount == BankTable::binCount);
+static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave);
 static_assert(BankTable::halvesPerBin == 3 * bankBinWords && bankBinWords == bankSize);
-static_assert(bankTableWords == bankBinWords * constants::bankBinCount);
+static_assert(bankTableBins ==
+              (constants::bankLastOctave - constants::bankFirstOctave) * constants::bankBinsPerOctave + 1);
 
 constexpr std::size_t tableBytes = sizeof(uvec4) * bankTableWords;
 
@@ -96,11 +96,17 @@ VkDeviceSize fineTexelCount(VkExtent2D maxExtent) {
     return VkDeviceSize{finest.width} * finest.height;
 }
 
+// A profile's weights at one of the device's bins.
+const std::uint16_t* weightsAt(const BankTable& table, int bin) {
+    const int own = bin + constants::bankBinsPerOctave * constants::bankFirstOctave - table.firstBin();
+    return &table.halves()[std::clamp(own, 0, BankTable::binCount - 1) * BankTable::halvesPerBin];
+}
+
 // Bits of the kernels that have a weight at a bin or the next.
-std::uint32_t usedKernels(const std::uint16_t* bin) {
+std::uint32_t usedKernels(const std::uint16_t* bin, const std::uint16_t* next) {
     std::uint32_t used = 0;
-    for (std::size_t i = 0; i < 2 * BankTable::halvesPerBin; ++i) {
-        used |= bin[i] != 0 ? 1u << i % BankTable::halvesPerBin / 3 : 0;
+    for (int i = 0; i < BankTable::halvesPerBin; ++i) {
+        used |= bin[i] != 0 || next[i] != 0 ? 1u << i / 3 : 0;
     }
     return used;
 }
@@ -115,14 +121,16 @@ uvec4 packWeights(const std::uint16_t* bin, const std::uint16_t* next) {
 
 void buildTable(const Material& material, const Profile& profile, std::span<std::byte> bytes) {
     const BankTable table(profile);
-    const std::uint16_t* halves = table.halves().data();
+    const auto strength = std::bit_cast<std::uint32_t>(static_cast<float>(material.strength)) & ~0xffu;
     std::array<uvec4, bankTableWords> words{};
-    words[0].x = std::bit_cast<std::uint32_t>(table.binOffset());
-    words[0].y = std::bit_cast<std::uint32_t>(static_cast<float>(material.strength));
-    for (std::size_t i = bankBinWords; i < words.size(); ++i) {
-        words[i] = packWeights(halves, halves + BankTable::halvesPerBin);
-        words[i].w = i % bankBinWords == 0 ? usedKernels(halves) : 0;
-        halves += 3;
+    for (int i = 0; i < static_cast<int>(bankTableBins); ++i) {
+        const std::uint16_t* bin = weightsAt(table, i);
+        const std::uint16_t* next = weightsAt(table, i + 1);
+        uvec4* kernels = &words[i * bankBinWords];
+        for (int kernel = 0; kernel < bankSize; ++kernel) {
+            kernels[kernel] = packWeights(bin + 3 * kernel, next + 3 * kernel);
+        }
+        kernels[0].w = kernels[2].w = kernels[4].w = strength | usedKernels(bin, next);
     }
     std::memcpy(bytes.data(), words.data(), sizeof(words));
 }

@@ -25,24 +25,29 @@ Sum noSum() {
 struct Mixture {
     uint first;     // of the bin, in bankTables
     float fraction; // [0, 1] towards the next
-    float strength;
+    uint word;      // the material's strength, and bits of the kernels that have a weight
 };
 
 // `pixel`: near where. A surface across the view direction is seen at the same scale everywhere.
 Mixture findMixture(uint material, float depth, ivec2 pixel) {
-    uint first = material * bankTableWords;
-    vec2 head = uintBitsToFloat(bankTables[first].xy);
-    float position = head.x - float(bankBinsPerOctave) * log2(texelWidth(0, depth / stretchAt(pixel)));
-    position = clamp(position, 0.0, float(bankBinCount - 1));
-    uint bin = min(uint(position), uint(bankBinCount - 2));
-    return Mixture(first + (bin + 1u) * bankBinWords, position - float(bin), head.y);
+    float octave = -log2(texelWidth(0, depth / stretchAt(pixel)));
+    float position = clamp(float(bankBinsPerOctave) * (octave - float(bankFirstOctave)), 0.0, float(bankTableBins - 1u));
+    uint bin = uint(position);
+    uint first = material * bankTableWords + bin * bankBinWords;
+    // The same word three times, to wait once for what most pixels need of the bin.
+    uint word = bankTables[first].w & bankTables[first + 2u].w & bankTables[first + 4u].w;
+    return Mixture(first, position - float(bin), word);
 }
 
 const uint finestKernel = 1u << 2; // level 1's bit of usedKernels
 
 // Bits of the kernels that have a weight.
 uint usedKernels(Mixture mixture) {
-    return bankTables[mixture.first].w;
+    return mixture.word & 0xffu;
+}
+
+float strengthOf(Mixture mixture) {
+    return uintBitsToFloat(mixture.word & ~0xffu);
 }
 
 // Red, green and blue.

@@ -274,7 +274,7 @@ void main() {
         }
         addPixels(sum, kernelWeight(mixture, 1) + left, local, material, depth);
         addIdentity(sum, kernelWeight(mixture, 0), local);
-        storeGroup(region.first + local, bvec4(true), material, mixture.strength, sum);
+        storeGroup(region.first + local, bvec4(true), material, strengthOf(mixture), sum);
     } else if (all(lessThan(region.first + local, view.areaExtent))) {
         writeUnscattered(region.first + local + view.areaOffset, material);
     }

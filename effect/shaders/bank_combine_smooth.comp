@@ -377,7 +377,7 @@ void main() {
             filterFinestLevel(lights, texel, beside);
             addKernel(sum, kernelWeight(mixture, 2), lights);
         }
-        storeGroup(first, members, material, mixture.strength, sum);
+        storeGroup(first, members, material, strengthOf(mixture), sum);
     }
     if (scattering != 15u) {
         storeRest(first, scattering);

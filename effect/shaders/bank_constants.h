@@ -5,9 +5,11 @@
 const int bankLevels = 6;
 // Kernels: identity, full-resolution 3x3, levels 1 … 6.
 const int bankSize = bankLevels + 2;
-// Bins of the weight table per doubling of px/mm, and their number (BankTable).
+// Bins of the weight table per doubling of px/mm (BankTable), and the scales of a material's on the device, in doublings of
+// one pixel per millimetre: pixels of a metre to those of 61 nm. Scales beyond have the mixture of the first or the last.
 const int bankBinsPerOctave = 8;
-const int bankBinCount = 113;
+const int bankFirstOctave = -10;
+const int bankLastOctave = 14;
 
 // Depth acts through Gaussian weights g(q) = max(0, 1 − q/4)⁴ ≈ e^−q of the squared distance along the pixels' rays;
 // t is a texel's width in mm at its depth.

@@ -153,11 +153,13 @@ struct BrutePixel {
     vec2 unused;
 };
 
-// Mixture table of `bank` in 16-byte words: a head that holds the bin offset and the strength (floats), as long as a bin, so
-// that each bin is a line of a cache, 128 bytes; then of each bin but the last its eight kernels: halves red and green; those
-// of the next bin; blue and that of the next bin; of the first kernel bits of those that have a weight, else nothing.
+// Mixture table of `bank` in 16-byte words: bins at the same scales for every material, so that a pixel finds its own without
+// asking where its material's begin; each is a line of a cache, 128 bytes. A bin is eight kernels: halves red and green; those
+// of the next bin; blue and that of the next bin; of kernels 0, 2 and 4 the material's strength, a float whose eight lowest
+// bits are those of the kernels that have a weight; else nothing.
 NACRE_CONSTANT bankBinWords = 8;
-NACRE_CONSTANT bankTableWords = (1 + 112) * bankBinWords;
+NACRE_CONSTANT bankTableBins = 193;
+NACRE_CONSTANT bankTableWords = bankTableBins * bankBinWords;
 // Workgroups along x of the combination's dispatches; longer lists take several rows. Those of 3840x2160 fit one.
 NACRE_CONSTANT bankDispatchWidth = 65535;
 struct BankDispatch {

@@ -51,15 +51,16 @@ public:
 
     explicit BankTable(const Profile& profile);
 
-    /// bin = binsPerOctave · log2(px/mm) + binOffset(), clamped to [0, binCount − 1].
-    float binOffset() const { return binOffset_; }
+    /// bin = binsPerOctave · log2(px/mm) − firstBin(), clamped to [0, binCount − 1]. Bins stand at the same scales for
+    /// every profile, so the span above is met within half a bin.
+    int firstBin() const { return firstBin_; }
     /// binCount · halvesPerBin IEEE half floats.
     std::span<const std::uint16_t> halves() const { return halves_; }
     /// The weights as the shader interpolates them.
     BankWeights at(double pixelsPerMillimeter) const;
 
 private:
-    float binOffset_ = 0;
+    int firstBin_ = 0;
     std::vector<std::uint16_t> halves_;
 };
 

@@ -200,7 +200,7 @@ typedef struct NacreContextInfo {
     uint32_t maxMaterials;     /**< [1 … 65535] most materials that are set, whatever their ids; 0 = 64. Each takes
                                     NacreCost::materialBytes of every technique (bank and bank-surfaces share theirs),
                                     in buffers no larger than the device's maxStorageBufferRange: where that is 128 MiB,
-                                    65535 of separable, 9350 of bank */
+                                    65535 of separable, 5432 of bank */
     uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
     NacreMessageCallback messageCallback; /**< null = silent */
     void* userData;            /**< handed to messageCallback */

@@ -196,7 +196,7 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
         const char* text;
     };
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    constexpr std::size_t size = 16 * 1024;
+    constexpr std::size_t size = 32 * 1024;
     const ScatterInput input = scene(true);
     NacreScatterInfo scatter{};
     scatter.view = input.view;

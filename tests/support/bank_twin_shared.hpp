@@ -12,12 +12,12 @@ namespace constants {
 #include "effect/shaders/bank_constants.h"
 } // namespace constants
 static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
-static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave &&
-              constants::bankBinCount == BankTable::binCount);
+static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave);
 
 /// e^−q, near enough, and 0 from q = 4 on.
 inline double falloff(double q) {
-    return std::pow(std::max(0.0, 1 - q / 4), 4);
+    const double square = std::max(0.0, 1 - q / 4) * std::max(0.0, 1 - q / 4);
+    return square * square;
 }
 
 /// What a kernel's share of a pixel is multiplied by: Σ kernel · depth weight · area, which is 1 on a plane of any
@@ -42,7 +42,8 @@ struct SurfaceSum {
         }
         const double distance = (tap->depth - depth) / width;
         const double closeness = 1 / (1 + 2 * tap->depthVariance / variance);
-        const double weight = kernel * falloff(distance * distance * closeness / variance) * std::pow(closeness, 0.25);
+        const double weight =
+            kernel * falloff(distance * distance * closeness / variance) * std::sqrt(std::sqrt(closeness));
         const double lit = weight * std::clamp<double>(1 - tap->lightSlope * distance, 0, constants::bankMostLit);
         for (int channel = 0; channel < 3; ++channel) {
             light[channel] += lit * tap->light[channel];
