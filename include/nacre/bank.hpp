@@ -15,8 +15,8 @@ inline constexpr int bankLevels = 6;
 inline constexpr int bankSize = bankLevels + 2;
 
 /// Least share of a kernel in a channel of a mixture, but for none: pixels read only levels that have one, and with 0
-/// they would read a quarter more of them, with edge responses closer by at most 0.0024.
-inline constexpr double bankLeastShare = 0.008;
+/// they would read two fifths more of them, with edge responses that differ by at most 0.0074.
+inline constexpr double bankLeastShare = 0.03;
 /// What share of each kernel makes up a profile: weights[kernel][channel] ≥ 0, summing to 1 over the kernels.
 using BankWeights = std::array<Rgb, bankSize>;
 
@@ -39,7 +39,7 @@ class BankTable {
 public:
     /// Bins of the table per doubling of px/mm. Weights between two bins are interpolated linearly: with 8 the edge
     /// response is within 4e-4 of the projection at that very scale, with 4 within 1.5e-3; where one bin leaves a
-    /// kernel out and the next does not, within 3e-3 (tests/unit/bank_test.cpp).
+    /// kernel out and the next does not, within 7e-3 (tests/unit/bank_test.cpp).
     static constexpr int binsPerOctave = 8;
     /// The table spans footprints (rms radius of the widest channel) of 2^firstOctave to 2^lastOctave px. Below, every
     /// channel is the identity; above, every channel that is at most 16 times narrower is wider than the bank.
