@@ -33,6 +33,7 @@ struct Subject {
     double coverage = 1; // planes: share of the pixels that scatter, a rectangle in the middle
     int layers = 6;
     int materials = 4;
+    std::uint32_t block = 8; // px, planes: side of the blocks that each are of the next material
     std::string label() const {
         char text[128];
         std::snprintf(text, sizeof(text), "%s %ux%u cover %.0f%% footprint %.0f px, %d layers, %d materials",
@@ -61,7 +62,7 @@ Material layeredSkin(int layers) {
     return material;
 }
 
-// Planes: blocks of 8x8 px of every material in turn. The other scenes have the four test materials.
+// Planes: square blocks of every material in turn. The other scenes have the four test materials.
 ScatterScene makeSubject(const Subject& subject) {
     SceneSettings settings{.kind = subject.kind,
                            .footprint = subject.footprint,
@@ -82,7 +83,7 @@ void setPlaneIds(ScatterInput& input, const Subject& subject) {
         for (std::uint32_t x = 0; x < input.extent.width; ++x) {
             const bool covered = std::abs((x + 0.5) / input.extent.width - 0.5) <= half &&
                                  std::abs((y + 0.5) / input.extent.height - 0.5) <= half;
-            const std::uint32_t block = x / 8 + y / 8 * (input.extent.width / 8);
+            const std::uint32_t block = x / subject.block + y / subject.block * (input.extent.width / subject.block);
             const std::uint32_t id = 1 + block % static_cast<std::uint32_t>(subject.materials);
             input.materialId[input.index(x, y)] = static_cast<std::uint16_t>(covered ? id : 0);
         }
@@ -240,15 +241,21 @@ void runLayers(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
+// In blocks of 8 px, which is hard: every few pixels another material, each all over the picture. And in blocks of 40
+// px, of which 1920x1080 has about as many as there are materials.
 void runMaterials(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all) {
     const std::vector<NacreTechnique> techniques = techniquesOr(options, realTimeTechniques());
-    std::vector<Row> rows;
-    // Five and more have 16-bit ids; so have all of this series.
-    for (const int materials : {5, 10, 50, 100, 500, 1000}) {
-        measureSubject(gpu, {.extent = options.extent, .materials = materials}, techniques, options, rows);
+    for (const std::uint32_t block : {8u, 40u}) {
+        std::vector<Row> rows;
+        // Five and more have 16-bit ids; so have all of this series.
+        for (const int materials : {5, 10, 50, 100, 500, 1000}) {
+            measureSubject(gpu, {.extent = options.extent, .materials = materials, .block = block}, techniques, options,
+                           rows);
+        }
+        const std::string what = "material in blocks of " + std::to_string(block) + " px";
+        printSlopes(what.c_str(), rows, [](const Subject& subject) { return static_cast<double>(subject.materials); });
+        all.insert(all.end(), rows.begin(), rows.end());
     }
-    printSlopes("material", rows, [](const Subject& subject) { return static_cast<double>(subject.materials); });
-    all.insert(all.end(), rows.begin(), rows.end());
 }
 
 // Three lights with shadow maps. Twice: the difference is the noise floor.
@@ -284,14 +291,15 @@ void runTransmit(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows)
 
 void writeCsv(const TimingOptions& options, std::span<const Row> rows) {
     std::ofstream file(options.csv);
-    file << "scene,width,height,coverage,footprint,layers,materials,technique,samples,steady_median_us,steady_p5_us,"
+    file << "scene,width,height,coverage,footprint,layers,materials,block,technique,samples,steady_median_us,steady_p5_"
+            "us,"
             "steady_p95_us,single_median_us,single_p5_us,single_p95_us,pass_medians_us\n";
     for (const auto& [subject, timing] : rows) {
         file << sceneKindName(subject.kind) << ',' << subject.extent.width << ',' << subject.extent.height << ','
              << subject.coverage << ',' << subject.footprint << ',' << subject.layers << ',' << subject.materials << ','
-             << timing.name << ',' << timing.steady.samples << ',' << timing.steady.median << ',' << timing.steady.p5
-             << ',' << timing.steady.p95 << ',' << timing.single.median << ',' << timing.single.p5 << ','
-             << timing.single.p95 << ',';
+             << subject.block << ',' << timing.name << ',' << timing.steady.samples << ',' << timing.steady.median
+             << ',' << timing.steady.p5 << ',' << timing.steady.p95 << ',' << timing.single.median << ','
+             << timing.single.p5 << ',' << timing.single.p95 << ',';
         for (std::size_t i = 0; i < timing.passes.size(); ++i) {
             file << (i ? ";" : "") << timing.passNames[i] << '=' << timing.passes[i].median;
         }
