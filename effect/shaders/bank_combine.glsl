@@ -32,7 +32,7 @@ struct Mixture {
 Mixture findMixture(uint material, float depth, ivec2 pixel) {
     float octave = -log2(texelWidth(0, depth / stretchAt(pixel)));
     float position = clamp(float(bankBinsPerOctave) * (octave - float(bankFirstOctave)), 0.0, float(bankTableBins - 1u));
-    uint bin = uint(position);
+    uint bin = min(uint(position), bankTableBins - 1u); // whatever a position that is not a number becomes
     uint first = material * bankTableWords + bin * bankBinWords;
     // The same word three times, to wait once for what most pixels need of the bin.
     uint word = bankTables[first].w & bankTables[first + 2u].w & bankTables[first + 4u].w;
