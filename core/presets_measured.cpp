@@ -16,7 +16,7 @@ struct MeasuredPreset {
 };
 
 // In the order of jensenMedia(): fitLayers(dipoleProfile(medium), 8), rounded. The largest error of a CDF is 0.001, for
-// Spectralon 0.002; tests/unit/presets_test.cpp fits them anew.
+// Spectralon 0.002; tests/unit/media_test.cpp fits them anew.
 constexpr MeasuredPreset measured[] = {
     {"apple",
      0.3,
