@@ -291,9 +291,8 @@ void runTransmit(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows)
 
 void writeCsv(const TimingOptions& options, std::span<const Row> rows) {
     std::ofstream file(options.csv);
-    file << "scene,width,height,coverage,footprint,layers,materials,block,technique,samples,steady_median_us,steady_p5_"
-            "us,"
-            "steady_p95_us,single_median_us,single_p5_us,single_p95_us,pass_medians_us\n";
+    file << "scene,width,height,coverage,footprint,layers,materials,block,technique,samples,"
+            "steady_median_us,steady_p5_us,steady_p95_us,single_median_us,single_p5_us,single_p95_us,pass_medians_us\n";
     for (const auto& [subject, timing] : rows) {
         file << sceneKindName(subject.kind) << ',' << subject.extent.width << ',' << subject.extent.height << ','
              << subject.coverage << ',' << subject.footprint << ',' << subject.layers << ',' << subject.materials << ','
