@@ -40,7 +40,7 @@ float smoothStep(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-vk::raii::Sampler makeSampler(const Gpu& gpu, vk::SamplerAddressMode longitude) {
+vk::raii::Sampler makeSkySampler(const Gpu& gpu, vk::SamplerAddressMode longitude) {
     return {gpu.device,
             {.magFilter = vk::Filter::eLinear,
              .minFilter = vk::Filter::eLinear,
@@ -92,8 +92,8 @@ std::array<glm::vec3, 9> irradianceHarmonics(const scene::FloatImage& image) {
 }
 
 Environment::Environment(Gpu& gpu, const scene::Environment& environment)
-    : sampler_(makeSampler(gpu, vk::SamplerAddressMode::eRepeat)),
-      clampSampler_(makeSampler(gpu, vk::SamplerAddressMode::eClampToEdge)) {
+    : sampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eRepeat)),
+      clampSampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eClampToEdge)) {
     const scene::FloatImage image = environment.image ? *environment.image : makeSky(environment);
     if (image.width == 0 || image.pixels.size() != std::size_t{image.width} * image.height * 4) {
         throw RendererError("the environment image has " + std::to_string(image.pixels.size()) + " values for its " +

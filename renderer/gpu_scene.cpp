@@ -56,7 +56,7 @@ std::uint32_t makeFlags(const scene::Surface& surface) {
            (surface.doubleSided ? shared::isDoubleSided : 0u);
 }
 
-shared::SurfaceConstants makeConstants(const scene::Surface& surface) {
+shared::SurfaceConstants makeSurfaceConstants(const scene::Surface& surface) {
     const float thickness = surface.thickness < 0 ? 0.0f : std::max(surface.thickness, smallestThickness);
     const glm::mat3 rows = glm::transpose(surface.uvTransform);
     return {.baseColor = surface.baseColor,
@@ -71,7 +71,7 @@ template <typename T> std::span<const std::byte> bytes(const std::vector<T>& val
     return std::as_bytes(std::span(values));
 }
 
-vk::raii::Sampler makeSampler(const Gpu& gpu, vk::SamplerAddressMode mode) {
+vk::raii::Sampler makeTextureSampler(const Gpu& gpu, vk::SamplerAddressMode mode) {
     return {gpu.device,
             {.magFilter = vk::Filter::eLinear,
              .minFilter = vk::Filter::eLinear,
@@ -129,8 +129,8 @@ void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
 }
 
 void GpuScene::uploadTextures(Gpu& gpu, const scene::Scene& scene) {
-    repeatSampler_ = makeSampler(gpu, vk::SamplerAddressMode::eRepeat);
-    clampSampler_ = makeSampler(gpu, vk::SamplerAddressMode::eClampToEdge);
+    repeatSampler_ = makeTextureSampler(gpu, vk::SamplerAddressMode::eRepeat);
+    clampSampler_ = makeTextureSampler(gpu, vk::SamplerAddressMode::eClampToEdge);
     const scene::Texture white{
         .name = "white", .width = 1, .height = 1, .pixels = std::vector<std::uint8_t>(4, std::uint8_t{255})};
     const auto upload = [&](const scene::Texture& texture) {
@@ -155,7 +155,7 @@ void GpuScene::uploadTextures(Gpu& gpu, const scene::Scene& scene) {
 
 void GpuScene::uploadSurfaces(Gpu& gpu, const scene::Scene& scene) {
     std::vector<shared::SurfaceConstants> constants;
-    std::transform(scene.surfaces.begin(), scene.surfaces.end(), std::back_inserter(constants), makeConstants);
+    std::transform(scene.surfaces.begin(), scene.surfaces.end(), std::back_inserter(constants), makeSurfaceConstants);
     surfaces_ = uploadBuffer(gpu, "surfaces", bytes(constants), vk::BufferUsageFlagBits::eStorageBuffer);
 
     const std::uint32_t count = std::max<std::uint32_t>(static_cast<std::uint32_t>(scene.surfaces.size()), 1);

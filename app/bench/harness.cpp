@@ -6,20 +6,13 @@
 #include "app/bench/text.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 namespace nacre::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::uint32_t minimumRounds = 3;
 constexpr double secondsBetweenLines = 5;
-
-double secondsSince(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 std::string idOf(const Series& series, const Configuration& configuration) {
     return series.name + "/" + configuration.view->name + "/" + configuration.technique + "/" +
@@ -109,7 +102,7 @@ private:
             }
             progress("warming up", ++done, candidates_.size());
         }
-        const Clock::time_point begin = Clock::now();
+        const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
         while (secondsSince(begin) < settings_.warmUpSeconds) {
             stage_.renderFrame();
         }
@@ -156,7 +149,7 @@ private:
             say_(series_.name + ": " + what + " " + std::to_string(done) + " of " + std::to_string(all) + ", " +
                  std::to_string(series_.configurations.size()) + " configurations, " +
                  formatNumber(secondsSince(begin_)) + " s");
-            lastLine_ = Clock::now();
+            lastLine_ = std::chrono::steady_clock::now();
         }
     }
 
@@ -239,11 +232,15 @@ private:
     Stage twinStage_; ///< with images of its own
     std::vector<Candidate> candidates_;
     std::vector<const Configuration*> twins_;
-    Clock::time_point begin_ = Clock::now();
-    Clock::time_point lastLine_ = Clock::now();
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point lastLine_ = std::chrono::steady_clock::now();
 };
 
 } // namespace
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
 SeriesResult measure(renderer::Device& device, const Series& series, const HarnessSettings& settings,
                      const Reporter& say) {

@@ -5,6 +5,7 @@
 #include "app/bench/results.hpp"
 #include "renderer/device.hpp"
 
+#include <chrono>
 #include <functional>
 
 namespace nacre::bench {
@@ -21,6 +22,8 @@ struct HarnessSettings {
 
 /// One line on what is being done.
 using Reporter = std::function<void(const std::string&)>;
+
+double secondsSince(std::chrono::steady_clock::time_point begin);
 
 struct SeriesResult {
     std::vector<Measurement> measurements;

@@ -26,10 +26,6 @@ HarnessSettings settingsFor(bool quick) {
     return {};
 }
 
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 /// Splits the time that is left between this series and those after it by their numbers of configurations.
 double secondsFor(std::span<const Series> series, double secondsLeft) {
     std::size_t configurations = 0;

@@ -46,20 +46,21 @@ std::vector<Variant> transmitVariants() {
 
 std::vector<QualityVariant> qualityVariants(const View& view, const Size& size) {
     std::vector<QualityVariant> variants;
+    const auto add = [&](const char* name, const EffectSettings& effect, double quality, const char* unit,
+                         const Size& pictureSize) {
+        variants.push_back({{name, effect}, quality, unit, pictureSize});
+    };
     for (const std::uint32_t radius : thesisRadii) {
-        variants.push_back({{"thesis", thesisSettings(view, size, radius, false)}, double(radius), "texels", size});
+        add("thesis", thesisSettings(view, size, radius, false), radius, "texels", size);
     }
     for (const std::uint32_t budget : burleyBudgets) {
-        variants.push_back({{"burley", {.technique = Technique::Burley, .burleySampleBudget = budget}},
-                            double(budget),
-                            "samples",
-                            size});
+        add("burley", {.technique = Technique::Burley, .burleySampleBudget = budget}, budget, "samples", size);
     }
     for (const auto& [name, technique] :
          {std::pair{"separable", Technique::Separable}, std::pair{"bank", Technique::Bank},
           std::pair{"bank-surfaces", Technique::BankSurfaces}}) {
         for (const double share : pixelShares) {
-            variants.push_back({{name, {.technique = technique}}, 100 * share, "% of the pixels", shrunk(size, share)});
+            add(name, {.technique = technique}, 100 * share, "% of the pixels", shrunk(size, share));
         }
     }
     return variants;
