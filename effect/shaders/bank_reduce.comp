@@ -216,13 +216,14 @@ void copyTile(ivec2 tile, int thread) {
     }
 }
 
-// The pyramid is empty there. Of level 1 nothing is written: pass C knows which tiles are empty.
+// The pyramid is empty there: 16 texels of level 2, four of level 3, one of level 4, a texel a thread. Of level 1 nothing is
+// written: pass C knows which tiles are empty.
 void clearTile(ivec2 tile, int thread) {
-    for (int level = 2; level <= rawLevels; ++level) {
-        int width = tileSize >> level;
-        if (thread < width * width) {
-            rawTexels[texelIndex(level, tile * width + ivec2(thread % width, thread / width))] = uvec4(0u);
-        }
+    int level = thread < 16 ? 2 : thread < 20 ? 3 : 4;
+    int texel = thread < 16 ? thread : thread & 3;
+    int width = tileSize >> level;
+    if (thread <= 20) {
+        rawTexels[texelIndex(level, tile * width + ivec2(texel % width, texel / width))] = uvec4(0u);
     }
 }
 
