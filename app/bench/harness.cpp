@@ -102,7 +102,7 @@ private:
             }
             progress("warming up", ++done, candidates_.size());
         }
-        const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+        const auto begin = std::chrono::steady_clock::now();
         while (secondsSince(begin) < settings_.warmUpSeconds) {
             stage_.renderFrame();
         }

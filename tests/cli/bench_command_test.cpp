@@ -54,8 +54,6 @@ std::size_t countOf(const std::string& text, const std::string& part) {
     return count;
 }
 
-} // namespace
-
 TEST_F(BenchTest, NeedsASuite) {
     expectComplaint(run({"bench"}), 2, {"subcommand"});
     expectComplaint(run({"bench", "guess"}), 2, {"subcommand", "nacre bench --help"});
@@ -167,3 +165,5 @@ TEST_F(BenchTest, ReportPrints) {
     EXPECT_EQ(readText(folder() / "page.pdf").substr(0, 5), "%PDF-");
     EXPECT_GT(std::filesystem::file_size(folder() / "page.pdf"), 20'000u);
 }
+
+} // namespace
