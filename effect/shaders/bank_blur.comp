@@ -264,7 +264,7 @@ void blurSurfaces(Block block, ivec2 local, int center) {
 
 void main() {
     int thread = int(gl_LocalInvocationIndex);
-    int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+    int group = int(gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x);
     if (group < parameters.bankLevels[bankLevels].w) {
         listRegions(group, thread);
         return;

@@ -57,16 +57,14 @@ struct Region {
     uint occupied; // ListEntry
 };
 
-// False where there is none.
+// False where there is none: the last row of a list is not full. Asked after the entry, so that neither waits for the other.
 bool findRegion(int kind, out Region region) {
     uint index = gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x;
-    if (gl_NumWorkGroups.y > 1u && index >= dispatches[kind].count) { // the last row is not full
-        return false;
-    }
     int place = listPlace(kind, index);
     ListEntry entry = unpackListEntry(tileEntries[place], tileEntries[place + 1]);
     region = Region(entry.part * partSize, entry.left, entry.occupied);
-    return true;
+    BankDispatch dispatch = dispatches[kind];
+    return index < max(dispatch.x, dispatch.count); // without a count one row is the list
 }
 
 // The first texel of a level in shared memory: the one left of and above the region's first pixel.
