@@ -214,5 +214,35 @@ TEST_P(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
     }
 }
 
+using BankListTest = GpuTest;
+
+// More edge regions than a dispatch has workgroups in a row: where materials are separate, every region of 16x8 px is one.
+TEST_F(BankListTest, OfListsLongerThanARowEveryRegionIsCombined) {
+    constexpr std::uint32_t width = 8192;
+    constexpr std::uint32_t height = 1040;
+    static_assert(width / 16 * (height / 8) > 65535);
+    ScatterInput input = ScatterInput::plane(width, height, Projection::perspective(width, height, width), 100);
+    std::vector<NacreLayer> layers[2];
+    NacreMaterial materials[] = {toNacre(skin(), layers[0]), toNacre(marble(), layers[1])};
+    materials[0].exchangeGroups = 1;
+    materials[1].exchangeGroups = 2;
+    for (std::size_t i = 0; i < input.materialId.size(); ++i) {
+        input.materialId[i] = i % width < width / 2 ? 1 : 2;
+        input.irradiance[i] = {0.5f, 0.5f, 0.5f, 1};
+    }
+    NacreContextInfo info = gpu.contextInfo(input.extent);
+    info.techniques = 1u << NACRE_TECHNIQUE_BANK;
+    Effect effect(gpu, info);
+    ASSERT_EQ(nacreSetMaterials(effect.context, 1, 2, materials), NACRE_SUCCESS);
+    const ScatterFormats halves{.irradiance = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                .scattered = VK_FORMAT_R16G16B16A16_SFLOAT};
+    const std::vector<Float4> result = effect.scatter(input, NACRE_TECHNIQUE_BANK, halves);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            ASSERT_NEAR(result[i][channel], 0.5, 5e-4) << "pixel " << i % width << ", " << i / width;
+        }
+    }
+}
+
 } // namespace
 } // namespace nacre::tests
