@@ -8,11 +8,14 @@
 #include "tests/gpu/timing/timing_options.hpp"
 #include "tests/gpu/timing/transmit_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
+#include <iterator>
+#include <list>
 #include <map>
 
 using namespace nacre;
@@ -124,21 +127,56 @@ std::vector<NacreTechnique> techniquesOr(const TimingOptions& options, std::vect
     return options.techniques.empty() ? std::move(usual) : options.techniques;
 }
 
-// The techniques in turn, the first of them twice (their difference is the noise floor), and the copy pass.
-void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechnique> techniques,
-                    const TimingOptions& options, std::vector<Row>& rows) {
-    ScatterScene scene = makeSubject(subject);
+// A subject's input, with materials that the context of all subjects has.
+ScatterInput makeInput(const Subject& subject, const ScatterScene& scene, const TimingOptions& options) {
     ScatterInput input = toInput(scene);
     if (options.albedo) {
         input.albedo.assign(input.depth.size(), {0.75f, 0.5f, 0.25f, 1});
-        for (Material& material : scene.materials) {
-            material.albedoUse = *options.albedo;
-        }
     }
     if (subject.kind == SceneKind::Plane) {
         setPlaneIds(input, subject);
     }
-    NacreContextInfo info = gpu.contextInfo(subject.extent);
+    return input;
+}
+
+// What a subject's variants use.
+struct Stage {
+    Stage(Gpu& gpu, const ScatterInput& input, const ScatterFormats& formats)
+        : images(gpu, input, formats), copy(gpu, images.info) {}
+    ScatterImages images;
+    CopyPass copy;
+};
+
+// The copy pass, the techniques in turn, and the first of these again (their difference is the noise floor).
+std::vector<Variant> makeVariants(Effect& effect, const Stage& stage, std::span<const NacreTechnique> techniques,
+                                  const TimingOptions& options) {
+    std::vector<Variant> variants;
+    variants.push_back({"copy",
+                        {"copy"},
+                        [] {},
+                        [&stage](VkCommandBuffer commandBuffer, VkQueryPool pool, std::uint32_t first) {
+                            stage.copy.record(commandBuffer, pool, first);
+                        }});
+    for (const NacreTechnique technique : techniques) {
+        for (const VkBool32 skipUnscattered : options.skipUnscattered) {
+            variants.push_back(makeVariant(effect, stage.images, technique, skipUnscattered));
+        }
+    }
+    variants.push_back(variants[1]);
+    variants.back().name += " again";
+    return variants;
+}
+
+// Subjects that differ in the materials on the screen alone, all in turn, in a context with those of the last, which
+// has the most: so neither the time of day nor where things lie in memory is taken for a difference between them.
+void measureSubjects(Gpu& gpu, std::span<const Subject> subjects, std::span<const NacreTechnique> techniques,
+                     const TimingOptions& options, std::vector<Row>& rows) {
+    const Subject& most = subjects.back();
+    ScatterScene scene = makeSubject(most);
+    for (Material& material : scene.materials) {
+        material.albedoUse = options.albedo.value_or(material.albedoUse);
+    }
+    NacreContextInfo info = gpu.contextInfo(most.extent);
     info.recordsPerFrame = options.measure.repeats;
     info.shaderFloat16 = options.shaderFloat16 && gpu.shaderFloat16;
     info.maxMaterials = static_cast<std::uint32_t>(scene.materials.size());
@@ -148,28 +186,29 @@ void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechn
     }
     Effect effect(gpu, info);
     effect.setMaterials(scene.materials);
-    const ScatterImages images(gpu, input, subject.materials > 4 ? largeIds : smallIds);
-    const CopyPass copy(gpu, images.info);
+    std::list<Stage> stages;
     std::vector<Variant> variants;
-    variants.push_back({"copy",
-                        {"copy"},
-                        [] {},
-                        [&copy](VkCommandBuffer commandBuffer, VkQueryPool pool, std::uint32_t first) {
-                            copy.record(commandBuffer, pool, first);
-                        }});
-    for (const NacreTechnique technique : techniques) {
-        for (const VkBool32 skipUnscattered : options.skipUnscattered) {
-            variants.push_back(makeVariant(effect, images, technique, skipUnscattered));
-        }
+    for (const Subject& subject : subjects) {
+        const Stage& stage =
+            stages.emplace_back(gpu, makeInput(subject, scene, options), most.materials > 4 ? largeIds : smallIds);
+        std::ranges::move(makeVariants(effect, stage, techniques, options), std::back_inserter(variants));
     }
-    variants.push_back(variants[1]);
-    variants.back().name += " again";
-    std::printf("%s\n", subject.label().c_str());
-    for (Timing& timing : measure(gpu, variants, options.measure)) {
-        print(timing);
-        rows.push_back({subject, std::move(timing)});
+    std::vector<Timing> timings = measure(gpu, variants, options.measure);
+    const std::size_t perSubject = variants.size() / subjects.size();
+    for (std::size_t i = 0; i < timings.size(); ++i) {
+        const Subject& subject = subjects[i / perSubject];
+        if (i % perSubject == 0) {
+            std::printf("%s\n", subject.label().c_str());
+        }
+        print(timings[i]);
+        rows.push_back({subject, std::move(timings[i])});
     }
     std::fflush(stdout);
+}
+
+void measureSubject(Gpu& gpu, const Subject& subject, std::span<const NacreTechnique> techniques,
+                    const TimingOptions& options, std::vector<Row>& rows) {
+    measureSubjects(gpu, {&subject, 1}, techniques, options, rows);
 }
 
 void printSlopes(const char* what, std::span<const Row> rows, double (*parameter)(const Subject&)) {
@@ -247,11 +286,11 @@ void runMaterials(Gpu& gpu, const TimingOptions& options, std::vector<Row>& all)
     const std::vector<NacreTechnique> techniques = techniquesOr(options, realTimeTechniques());
     for (const std::uint32_t block : {8u, 40u}) {
         std::vector<Row> rows;
-        // Five and more have 16-bit ids; so have all of this series.
-        for (const int materials : {5, 10, 50, 100, 500, 1000}) {
-            measureSubject(gpu, {.extent = options.extent, .materials = materials, .block = block}, techniques, options,
-                           rows);
+        std::vector<Subject> subjects;
+        for (const int materials : {1, 5, 10, 50, 100, 500, 1000}) {
+            subjects.push_back({.extent = options.extent, .materials = materials, .block = block});
         }
+        measureSubjects(gpu, subjects, techniques, options, rows);
         const std::string what = "material in blocks of " + std::to_string(block) + " px";
         printSlopes(what.c_str(), rows, [](const Subject& subject) { return static_cast<double>(subject.materials); });
         all.insert(all.end(), rows.begin(), rows.end());
