@@ -239,6 +239,14 @@ void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     }
 }
 
+// What nothing was tuned on, some of it edges all over.
+void runHeldOut(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
+    const std::vector<NacreTechnique> techniques = techniquesOr(options, {NACRE_TECHNIQUE_BANK});
+    for (const SceneKind kind : heldOutSceneKinds) {
+        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, techniques, options, rows);
+    }
+}
+
 void runTargets(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     const std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
     const std::vector<NacreTechnique> all = realTimeTechniques();
@@ -362,7 +370,7 @@ int main(int count, char** arguments) {
                     options.shaderFloat16 && gpu.shaderFloat16 ? "on" : "off");
         std::vector<Row> rows;
         const std::pair<const char*, void (*)(Gpu&, const TimingOptions&, std::vector<Row>&)> suites[] = {
-            {"scenes", runScenes}, {"targets", runTargets},     {"footprint", runFootprints},
+            {"scenes", runScenes}, {"held-out", runHeldOut},    {"targets", runTargets},  {"footprint", runFootprints},
             {"layers", runLayers}, {"materials", runMaterials}, {"transmit", runTransmit}};
         bool known = false;
         for (const auto& [name, run] : suites) {
@@ -372,8 +380,9 @@ int main(int count, char** arguments) {
             }
         }
         if (!known) {
-            throw std::runtime_error("--suite is '" + options.suite +
-                                     "', must be scenes, targets, footprint, layers, materials, transmit or all");
+            throw std::runtime_error(
+                "--suite is '" + options.suite +
+                "', must be scenes, held-out, targets, footprint, layers, materials, transmit or all");
         }
         writeCsv(options, rows);
         return 0;

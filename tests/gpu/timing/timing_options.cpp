@@ -77,8 +77,8 @@ std::vector<VkBool32> parseSwitches(const std::string& name, const std::string& 
 const char* const timingUsage =
     R"(effect_timing: GPU times of the scatter techniques and of transmit, beside a copy pass
 
-  --suite NAME          scenes, targets, footprint, layers, materials, transmit or all (all)
-  --techniques A,B,...  of scenes (bank), footprint, layers and materials (all), in turn on every scene
+  --suite NAME          scenes, held-out, targets, footprint, layers, materials, transmit or all (all)
+  --techniques A,B,...  of scenes and held-out (bank), footprint, layers and materials (all), in turn on every scene
   --size WIDTHxHEIGHT   px (1920x1080)
   --rounds N            of 20 steady repeats and 5 lone frames each (12)
   --shader-float16 X    on or off: half floats where the device has them (on)
