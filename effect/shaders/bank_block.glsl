@@ -205,19 +205,32 @@ float longestSurfaceStep(float before, float first, float second, float after) {
 }
 
 // The same where some pixel is on no surface: between those that are.
-float longestBesideHole(vec4 depth, Sides sides) {
-    return max(max(longestSurfaceStep(sides.left.x, depth.x, depth.y, sides.right.x),
-                   longestSurfaceStep(sides.left.y, depth.z, depth.w, sides.right.y)),
-               max(longestSurfaceStep(sides.above.x, depth.x, depth.z, sides.below.x),
-                   longestSurfaceStep(sides.above.y, depth.y, depth.w, sides.below.y)));
+float longestBesideHole(Block block, Sides sides) {
+    return max(max(longestSurfaceStep(sides.left.x, block.depth[0], block.depth[1], sides.right.x),
+                   longestSurfaceStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
+               max(longestSurfaceStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
+                   longestSurfaceStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
 }
 
-// Whether a block that is not plain, or a pixel beside it, is no place for plain weights.
-bool isRough(Block block, Sides sides, Depths around) {
-    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
-    float width = texelWidth(0, max(max(depth.x, depth.y), max(depth.z, depth.w)));
-    return around.least > 0.0 ? around.longest > bankSmoothDepth * width
-                              : longestBesideHole(depth, sides) > bankSmoothHoleDepth * width;
+// How long a step of a block, or of a pixel beside it, may be in smooth regions.
+float longestSmoothStep(Block block, Depths around) {
+    float farthest = max(max(block.depth[0], block.depth[1]), max(block.depth[2], block.depth[3]));
+    return (around.least > 0.0 ? bankSmoothDepth : bankSmoothHoleDepth) * texelWidth(0, farthest);
+}
+
+// Whether a block and the pixels beside it, of which none is missing, are one surface with longer steps than `limit`: in each row
+// and column with such a step depth rises or falls, however steeply.
+bool isSteep(Block block, Sides sides, float limit) {
+    vec4 first = vec4(block.depth[0], block.depth[2], block.depth[0], block.depth[1]);
+    vec4 second = vec4(block.depth[1], block.depth[3], block.depth[2], block.depth[3]);
+    vec4 before = first - vec4(sides.left, sides.above);
+    vec4 between = second - first;
+    vec4 after = vec4(sides.right, sides.below) - second;
+    vec4 least = min(min(before, between), after);
+    vec4 most = max(max(before, between), after);
+    vec4 longest = max(most, -least);
+    vec4 beyond = max(bankContinuedStep * max(least, -most), vec4(limit)); // how long it may be
+    return all(lessThanEqual(longest, beyond));
 }
 
 // Of the pixels that a texel has kept.
@@ -253,7 +266,7 @@ vec2 slopeOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
 }
 
 // Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
-// `hasStep`: isRough.
+// `hasStep`: a step to another surface.
 Reduced reduceAny(Block block, Sides sides, bool hasStep) {
     Reduced result;
     result.areas = anyAreas(block, sides);
@@ -290,8 +303,11 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
         plain = isFinite(reduced.texel.light);
     }
     if (!plain) {
-        reduced = reduceAny(block, sides, isRough(block, sides, around));
-        bool isPart = secondLevels > 0 || reduced.texel.mass < 1.0;
+        bool hasHole = around.least == 0.0;
+        float limit = longestSmoothStep(block, around);
+        bool isLong = (hasHole ? longestBesideHole(block, sides) : around.longest) > limit;
+        reduced = reduceAny(block, sides, isLong && (hasHole || !isSteep(block, sides, limit)));
+        bool isPart = secondLevels > 0 || isLong || reduced.texel.mass < 1.0;
         uint bits = ((reduced.weights & signBit) != 0u ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
         if (bits != 0u) {
             atomicOr(roughness, bits);

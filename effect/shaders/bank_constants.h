@@ -26,7 +26,8 @@ const int bankSecondLevels = 5;
 const float bankSecondSeparation = 2.0f;
 // A depth step from a pixel to the next goes on as the step on the pixel's other side does, and their mean is the slope, when
 // it is at most this many times as long as that one, or as the pixel is wide. A 2x2 block with no longer steps, in it and
-// beside it, is plain, and reduced without asking for surfaces or slopes: asking would give the same. With 1.5 for plain
+// beside it, is plain, and reduced without asking for surfaces or slopes: asking would give the same. Where the longest of the
+// three steps of a row or column of four pixels is at most this many times the shortest, it is one surface, however steep. With 1.5 for plain
 // blocks tilted sheets take 2 us more (1920x1080, NVIDIA H200); with 3 one less, but models have up to 0.4 dB less.
 const float bankContinuedStep = 2.0f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). With 2: +0.2 dB, but −0.3 to −0.9 dB on the models; with 1: −0.4 dB.
@@ -57,10 +58,11 @@ const float bankLargestArea = 8.0f;
 // Sums of weights are not divided by less than this: where every tap is on another surface the light fades out.
 const float bankLeastWeight = 1e-6f;
 // A region of 32x16 px whose depth, with one 2x2 block around, changes by less than this many pixel widths from pixel to
-// pixel is smooth: its pixels are combined without looking for surfaces (docs/scatter.md, "Two pipelines"). A texel of the
-// blurred levels is plain where the same holds from texel to texel.
+// pixel, or goes on more steeply (bankContinuedStep), is smooth: its pixels are combined without looking for surfaces
+// (docs/scatter.md, "Two pipelines"). A texel of the blurred levels is plain where the first holds from texel to texel.
 // 3 is a slope of 72 degrees. With 1.2, 50 degrees, tilted sheets take 100 µs more (1920x1080, NVIDIA H200), and no case
-// changes by more than 0.3 dB.
+// changes by more than 0.3 dB. Where steeper surfaces are not smooth, floors take 32 µs more (NVIDIA H100), and have 0.3 to
+// 1.5 dB more.
 const float bankSmoothDepth = 3.0f;
 // The same beside a pixel that is on no surface, where surfaces curve away. With 3: −1 to −5 dB on the models.
 const float bankSmoothHoleDepth = 0.5f;

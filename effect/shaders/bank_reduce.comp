@@ -25,7 +25,8 @@ shared uint roughness; // tileRough of the tile's blocks, and notFull
 // Of a tile that is not whole, nearest and farthest depth of level 1, as bits, whose order is the depths'.
 shared uint nearest;
 shared uint farthest;
-// A pixel of some block is on no surface, or on another than the block's. With second surfaces: some block is not plain.
+// A pixel of some block is on no surface, or on another than the block's, or makes a long step. With second surfaces: some block is
+// not plain.
 const uint notFull = 1u;
 
 #include "bank_block.glsl"

@@ -323,28 +323,45 @@ BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
     return {sum.lightOfMass(), sum.mass(), depth, false};
 }
 
-// Whether a 2x2 block of pixels, with those beside it, has a depth step or left something out.
+// Whether depth goes on from pixel to pixel in a row or column: no step is longer than `limit`, or it rises or falls.
+bool isSmooth(std::span<const double, 4> depths, double limit) {
+    const std::array steps{depths[1] - depths[0], depths[2] - depths[1], depths[3] - depths[2]};
+    const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+    return std::max(*most, -*least) <= limit || *most <= constants::bankContinuedStep * *least ||
+           *least >= constants::bankContinuedStep * *most;
+}
+
+// Whether a 2x2 block of pixels, with those beside it, has a step to another surface or left something out.
 bool BankTwin::isRough(int blockX, int blockY) const {
-    double longest = 0;
-    double farthest = 0;
-    bool besideHole = false;
     const auto depthAt = [&](int x, int y) {
         const RawTexel* pixel = raw_[0].at(x, y);
         return pixel != nullptr ? pixel->depth : 0;
     };
+    const int x = 2 * blockX;
+    const int y = 2 * blockY;
+    std::array<std::array<double, 4>, 4> lines; // the block's rows, its columns, with a pixel beside at either end
     for (int i = 0; i < 4; ++i) {
-        const int x = 2 * blockX + i % 2;
-        const int y = 2 * blockY + i / 2;
-        const double depth = depthAt(x, y);
-        farthest = std::max(farthest, depth);
-        besideHole |= depth == 0;
-        for (const double beside : {depthAt(x - 1, y), depthAt(x + 1, y), depthAt(x, y - 1), depthAt(x, y + 1)}) {
-            besideHole |= beside == 0;
-            longest = std::max(longest, std::min(depth, beside) > 0 ? std::abs(depth - beside) : 0);
+        lines[0][i] = depthAt(x - 1 + i, y);
+        lines[1][i] = depthAt(x - 1 + i, y + 1);
+        lines[2][i] = depthAt(x, y - 1 + i);
+        lines[3][i] = depthAt(x + 1, y - 1 + i);
+    }
+    double longest = 0;
+    double farthest = 0;
+    bool hasHole = false;
+    for (const std::array<double, 4>& line : lines) {
+        for (int i = 0; i < 4; ++i) {
+            hasHole |= line[i] == 0;
+            farthest = i == 1 || i == 2 ? std::max(farthest, line[i]) : farthest;
+            const bool isStep = i > 0 && std::min(line[i], line[i - 1]) > 0;
+            longest = std::max(longest, isStep ? std::abs(line[i] - line[i - 1]) : 0);
         }
     }
-    const double limit = besideHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth;
-    return raw_[1].at(blockX, blockY)->dropped || longest > limit * texelWidth(0, farthest);
+    const double limit =
+        (hasHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth) * texelWidth(0, farthest);
+    const auto smooth = [&](const std::array<double, 4>& line) { return isSmooth(line, limit); };
+    return raw_[1].at(blockX, blockY)->dropped ||
+           (longest > limit && (hasHole || !std::all_of(lines.begin(), lines.end(), smooth)));
 }
 
 // Whether a block of a part, or one beside it, is rough.
