@@ -212,12 +212,6 @@ float longestBesideHole(Block block, Sides sides) {
                    longestSurfaceStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
 }
 
-// How long a step of a block, or of a pixel beside it, may be in smooth regions.
-float longestSmoothStep(Block block, Depths around) {
-    float farthest = max(max(block.depth[0], block.depth[1]), max(block.depth[2], block.depth[3]));
-    return (around.least > 0.0 ? bankSmoothDepth : bankSmoothHoleDepth) * texelWidth(0, farthest);
-}
-
 // Whether a block and the pixels beside it, of which none is missing, are one surface with longer steps than `limit`: in each row
 // and column with such a step depth rises or falls, however steeply.
 bool isSteep(Block block, Sides sides, float limit) {
@@ -303,10 +297,12 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
         plain = isFinite(reduced.texel.light);
     }
     if (!plain) {
+        float farthest = max(max(block.depth[0], block.depth[1]), max(block.depth[2], block.depth[3]));
         bool hasHole = around.least == 0.0;
-        float limit = longestSmoothStep(block, around);
+        float limit = (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * texelWidth(0, farthest);
         bool isLong = (hasHole ? longestBesideHole(block, sides) : around.longest) > limit;
-        reduced = reduceAny(block, sides, isLong && (hasHole || !isSteep(block, sides, limit)));
+        bool mayGoOn = !hasHole && around.longest <= separationAt(1, farthest);
+        reduced = reduceAny(block, sides, isLong && !(mayGoOn && isSteep(block, sides, limit)));
         bool isPart = secondLevels > 0 || isLong || reduced.texel.mass < 1.0;
         uint bits = ((reduced.weights & signBit) != 0u ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
         if (bits != 0u) {

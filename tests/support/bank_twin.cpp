@@ -359,9 +359,12 @@ bool BankTwin::isRough(int blockX, int blockY) const {
     }
     const double limit =
         (hasHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth) * texelWidth(0, farthest);
+    const double separation =
+        (settings_.secondSurfaces ? constants::bankSecondSeparation : constants::bankSurfaceSeparation) *
+        texelWidth(1, farthest);
     const auto smooth = [&](const std::array<double, 4>& line) { return isSmooth(line, limit); };
     return raw_[1].at(blockX, blockY)->dropped ||
-           (longest > limit && (hasHole || !std::all_of(lines.begin(), lines.end(), smooth)));
+           (longest > limit && (hasHole || longest > separation || !std::all_of(lines.begin(), lines.end(), smooth)));
 }
 
 // Whether a block of a part, or one beside it, is rough.
