@@ -177,7 +177,13 @@ ivec2 regionCount() {
     return levelExtent(rawLevels) / ivec2(2, 1);
 }
 
-// Where an entry of the list of smooth (0) or edge regions (1) is in tileEntries.
+// The most regions that a list of smooth (0) or edge regions (1) may have.
+uint listCapacity(int kind) {
+    ivec2 regions = regionCount();
+    return uint(regions.x * regions.y) * (kind == 0 ? 1u : 4u);
+}
+
+// Where an entry of a list is in tileEntries.
 int listPlace(int kind, uint entry) {
     ivec2 regions = regionCount();
     return (2 + 2 * kind) * regions.x * regions.y + 2 * int(entry);

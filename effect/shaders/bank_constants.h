@@ -26,9 +26,10 @@ const int bankSecondLevels = 5;
 const float bankSecondSeparation = 2.0f;
 // A depth step from a pixel to the next goes on as the step on the pixel's other side does, and their mean is the slope, when
 // it is at most this many times as long as that one, or as the pixel is wide. A 2x2 block with no longer steps, in it and
-// beside it, is plain, and reduced without asking for surfaces or slopes: asking would give the same. Where the longest of the
-// three steps of a row or column of four pixels is at most this many times the shortest, it is one surface, however steep. With 1.5 for plain
-// blocks tilted sheets take 2 us more (1920x1080, NVIDIA H200); with 3 one less, but models have up to 0.4 dB less.
+// beside it, is plain, and reduced without asking for surfaces or slopes: asking would give the same. With 1.5 for plain
+// blocks tilted sheets take 2 us more (1920x1080, NVIDIA H200); with 3 one less, but models have up to 0.4 dB less. Where the
+// longest of the three steps of a row or column of four pixels is at most this many times the shortest, however steep, it is
+// one surface.
 const float bankContinuedStep = 2.0f;
 // Blur: q = Δz² / (bankBlurDepthVariance · t²). With 2: +0.2 dB, but −0.3 to −0.9 dB on the models; with 1: −0.4 dB.
 const float bankBlurDepthVariance = 1.4f;

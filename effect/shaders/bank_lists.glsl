@@ -5,9 +5,7 @@ shared uint listed[2]; // regions of this workgroup on each list; then where the
 
 // Makes room for `count` regions at the end of a list, and its pipeline's dispatch cover them. Returns the first's place.
 uint extendList(int kind, uint count) {
-    ivec2 regions = regionCount();
-    uint most = uint(regions.x * regions.y) * (kind == 0 ? 1u : 4u);
-    if (most <= bankDispatchWidth) { // one row: its width counts
+    if (listCapacity(kind) <= bankDispatchWidth) { // one row: its width counts
         return atomicAdd(dispatches[kind].x, count);
     }
     uint first = atomicAdd(dispatches[kind].count, count);

@@ -60,7 +60,7 @@ struct Region {
 // False where there is none: the last row of a list is not full. Asked after the entry, so that neither waits for the other.
 bool findRegion(int kind, out Region region) {
     uint index = gl_WorkGroupID.y * bankDispatchWidth + gl_WorkGroupID.x;
-    int place = listPlace(kind, index);
+    int place = listPlace(kind, min(index, listCapacity(kind) - 1u));
     ListEntry entry = unpackListEntry(tileEntries[place], tileEntries[place + 1]);
     region = Region(entry.part * partSize, entry.left, entry.occupied);
     BankDispatch dispatch = dispatches[kind];
