@@ -62,8 +62,8 @@ const float bankLeastWeight = 1e-6f;
 // pixel, or goes on more steeply (bankContinuedStep), is smooth: its pixels are combined without looking for surfaces
 // (docs/scatter.md, "Two pipelines"). A texel of the blurred levels is plain where the first holds from texel to texel.
 // 3 is a slope of 72 degrees. With 1.2, 50 degrees, tilted sheets take 100 µs more (1920x1080, NVIDIA H200), and no case
-// changes by more than 0.3 dB. Where steeper surfaces are not smooth, floors take 32 µs more (NVIDIA H100), and have 0.3 to
-// 1.5 dB more.
+// changes by more than 0.3 dB. Where steeper surfaces are not smooth, floors take 32 µs more (NVIDIA H100), and have 0.4 to
+// 1.2 dB more.
 const float bankSmoothDepth = 3.0f;
 // The same beside a pixel that is on no surface, where surfaces curve away. With 3: −1 to −5 dB on the models.
 const float bankSmoothHoleDepth = 0.5f;
