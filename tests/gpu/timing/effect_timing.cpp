@@ -127,18 +127,6 @@ std::vector<NacreTechnique> techniquesOr(const TimingOptions& options, std::vect
     return options.techniques.empty() ? std::move(usual) : options.techniques;
 }
 
-// A subject's input, with materials that the context of all subjects has.
-ScatterInput makeInput(const Subject& subject, const ScatterScene& scene, const TimingOptions& options) {
-    ScatterInput input = toInput(scene);
-    if (options.albedo) {
-        input.albedo.assign(input.depth.size(), {0.75f, 0.5f, 0.25f, 1});
-    }
-    if (subject.kind == SceneKind::Plane) {
-        setPlaneIds(input, subject);
-    }
-    return input;
-}
-
 // What a subject's variants use.
 struct Stage {
     Stage(Gpu& gpu, const ScatterInput& input, const ScatterFormats& formats)
@@ -186,11 +174,17 @@ void measureSubjects(Gpu& gpu, std::span<const Subject> subjects, std::span<cons
     }
     Effect effect(gpu, info);
     effect.setMaterials(scene.materials);
+    ScatterInput input = toInput(scene);
+    if (options.albedo) {
+        input.albedo.assign(input.depth.size(), {0.75f, 0.5f, 0.25f, 1});
+    }
     std::list<Stage> stages;
     std::vector<Variant> variants;
     for (const Subject& subject : subjects) {
-        const Stage& stage =
-            stages.emplace_back(gpu, makeInput(subject, scene, options), most.materials > 4 ? largeIds : smallIds);
+        if (subject.kind == SceneKind::Plane) {
+            setPlaneIds(input, subject);
+        }
+        const Stage& stage = stages.emplace_back(gpu, input, most.materials > 4 ? largeIds : smallIds);
         std::ranges::move(makeVariants(effect, stage, techniques, options), std::back_inserter(variants));
     }
     std::vector<Timing> timings = measure(gpu, variants, options.measure);
@@ -224,6 +218,16 @@ void printSlopes(const char* what, std::span<const Row> rows, double (*parameter
     }
 }
 
+// Of the kinds that `bank` was tuned on, those with edges.
+constexpr SceneKind edgeKinds[] = {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin};
+
+void measureKinds(Gpu& gpu, std::span<const SceneKind> kinds, const TimingOptions& options, std::vector<Row>& rows) {
+    const std::vector<NacreTechnique> techniques = techniquesOr(options, {NACRE_TECHNIQUE_BANK});
+    for (const SceneKind kind : kinds) {
+        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, techniques, options, rows);
+    }
+}
+
 // One of each: a minute's answer to a change of shaders.
 void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     const Subject planes[] = {{.extent = options.extent},
@@ -234,17 +238,12 @@ void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     for (const Subject& plane : planes) {
         measureSubject(gpu, plane, techniques, options, rows);
     }
-    for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
-        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, techniques, options, rows);
-    }
+    measureKinds(gpu, edgeKinds, options, rows);
 }
 
 // What nothing was tuned on, some of it edges all over.
 void runHeldOut(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
-    const std::vector<NacreTechnique> techniques = techniquesOr(options, {NACRE_TECHNIQUE_BANK});
-    for (const SceneKind kind : heldOutSceneKinds) {
-        measureSubject(gpu, {.kind = kind, .extent = options.extent, .footprint = 60}, techniques, options, rows);
-    }
+    measureKinds(gpu, heldOutSceneKinds, options, rows);
 }
 
 void runTargets(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
@@ -258,7 +257,7 @@ void runTargets(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) 
             measureSubject(gpu, {.extent = extent, .footprint = footprint, .coverage = 0.25}, techniques, options,
                            rows);
         }
-        for (const SceneKind kind : {SceneKind::Spheres, SceneKind::Tilt, SceneKind::Thin}) {
+        for (const SceneKind kind : edgeKinds) {
             for (const double footprint : {6.0, 60.0}) {
                 measureSubject(gpu, {.kind = kind, .extent = extent, .footprint = footprint}, techniques, options,
                                rows);
