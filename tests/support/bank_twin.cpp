@@ -80,6 +80,14 @@ struct Block {
     bool isNear(const RawTexel& texel) const { return texel.depth - nearest <= farthest - texel.depth; }
 };
 
+// Whether depth goes on from pixel to pixel in a row or column: no step is longer than `limit`, or it rises or falls.
+bool isSmooth(std::span<const double, 4> depths, double limit) {
+    const std::array steps{depths[1] - depths[0], depths[2] - depths[1], depths[3] - depths[2]};
+    const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+    return std::max(*most, -*least) <= limit || *most <= constants::bankContinuedStep * *least ||
+           *least >= constants::bankContinuedStep * *most;
+}
+
 } // namespace
 
 // Length of a pixel's ray where its depth along the view direction changes by 1.
@@ -151,6 +159,12 @@ bool BankTwin::hasSeconds(int level) const {
     return settings_.secondSurfaces && level >= 1 && level <= constants::bankSecondLevels;
 }
 
+// Depths further apart than this, in mm, are two surfaces of a texel whose nearest depth this is.
+double BankTwin::separationAt(int level, double nearest) const {
+    return (hasSeconds(level) ? constants::bankSecondSeparation : constants::bankSurfaceSeparation) *
+           texelWidth(level, nearest);
+}
+
 // The next level's texels, of one surface each.
 TwinLevel<RawTexel> BankTwin::reduced(const TwinLevel<RawTexel>& from, int level) const {
     TwinLevel<RawTexel> to;
@@ -186,7 +200,7 @@ void BankTwin::reduceLevel(int level) {
         }
         RawTexel& texel = to.texels[i];
         texel = block.sum([](const RawTexel&) { return true; });
-        if (block.farthest - block.nearest > constants::bankSecondSeparation * texelWidth(level, block.nearest)) {
+        if (block.farthest - block.nearest > separationAt(level, block.nearest)) {
             texel = block.sum([&](const RawTexel& t) { return block.isNear(t); });
             seconds.texels[i] = block.sum([&](const RawTexel& t) { return !block.isNear(t); });
         }
@@ -323,14 +337,6 @@ BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
     return {sum.lightOfMass(), sum.mass(), depth, false};
 }
 
-// Whether depth goes on from pixel to pixel in a row or column: no step is longer than `limit`, or it rises or falls.
-bool isSmooth(std::span<const double, 4> depths, double limit) {
-    const std::array steps{depths[1] - depths[0], depths[2] - depths[1], depths[3] - depths[2]};
-    const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
-    return std::max(*most, -*least) <= limit || *most <= constants::bankContinuedStep * *least ||
-           *least >= constants::bankContinuedStep * *most;
-}
-
 // Whether a 2x2 block of pixels, with those beside it, has a step to another surface or left something out.
 bool BankTwin::isRough(int blockX, int blockY) const {
     const auto depthAt = [&](int x, int y) {
@@ -359,12 +365,10 @@ bool BankTwin::isRough(int blockX, int blockY) const {
     }
     const double limit =
         (hasHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth) * texelWidth(0, farthest);
-    const double separation =
-        (settings_.secondSurfaces ? constants::bankSecondSeparation : constants::bankSurfaceSeparation) *
-        texelWidth(1, farthest);
     const auto smooth = [&](const std::array<double, 4>& line) { return isSmooth(line, limit); };
     return raw_[1].at(blockX, blockY)->dropped ||
-           (longest > limit && (hasHole || longest > separation || !std::all_of(lines.begin(), lines.end(), smooth)));
+           (longest > limit &&
+            (hasHole || longest > separationAt(1, farthest) || !std::all_of(lines.begin(), lines.end(), smooth)));
 }
 
 // Whether a block of a part, or one beside it, is rough.

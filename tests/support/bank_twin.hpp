@@ -76,6 +76,7 @@ private:
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
     bool hasSeconds(int level) const;
+    double separationAt(int level, double nearest) const;
     TwinLevel<RawTexel> reduced(const TwinLevel<RawTexel>& from, int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
