@@ -293,7 +293,7 @@ float unpackArea(uint areas, int i) {
 
 // Of a base that is 1 at no distance, its fourth power; 0 where it is negative.
 float falloffFrom(float base) {
-    float least = max(0.0, base);
+    float least = clamp(base, 0.0, 1.0);
     float squared = least * least;
     return squared * squared;
 }

@@ -6,9 +6,10 @@
 const bool isEdge = true;
 #include "bank_combine.glsl"
 
-// Of level 1's texels as reduced, beside fineLights: depth, then what addReducedTap wants: what scales squared distances in texel
-// widths, lightSlope over bankMostLit, area, 0 where it is empty.
-shared vec4 fineSurfaces[fineCount];
+// Of level 1's texels as reduced, not packed, since each is read sixteen times: light times area, and area, 0 where it is empty;
+// depth, then what addReducedTap wants: what scales squared distances in texel widths, and lightSlope over bankMostLit.
+shared vec4 fineTaps[fineCount];
+shared vec3 fineSurfaces[fineCount];
 const float pixelScale = 0.25 / bankPixelDepthVariance;
 shared uint fineMaterials[separateMaterials ? fineCount : 1];
 // Of their second surfaces the words of light and area, and depth; 0 where there is none.
@@ -22,9 +23,9 @@ void storeFine(int place, int index, uvec4 words) {
     DepthSpread spread = spreadOf(words.zw);
     // What is spread over more depths weighs farther, and less.
     float area = unpackHalf2x16(words.y).y * sqrt(sqrt(spread.closeness));
-    fineLights[place] = words.xy;
+    fineTaps[place] = vec4(unpackLight(words.xy).rgb * area, area);
     fineSurfaces[place] =
-        vec4(abs(uintBitsToFloat(words.z)), pixelScale * spread.closeness, spread.lightSlope / bankMostLit, area);
+        vec3(abs(uintBitsToFloat(words.z)), pixelScale * spread.closeness, spread.lightSlope / bankMostLit);
     if (separateMaterials) {
         fineMaterials[place] = words.w >> 16;
     }
@@ -122,7 +123,7 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 local, uint material, float dep
         int place = ownPlace(local, offset);
         float difference = pixelDepths[place] - depth;
         float root = (offset.x == 0 ? middleRoot : besideRoot) * (offset.y == 0 ? middleRoot : besideRoot);
-        float base = max(0.0, root - difference * difference * (root * scale));
+        float base = clamp(root - difference * difference * (root * scale), 0.0, 1.0);
         base *= base;
         vec4 tap = unpackLight(pixelLights[place]);
         float tapWeight = base * base * tap.a;
@@ -135,45 +136,49 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 local, uint material, float dep
 }
 
 // Along an axis the 3x3 mean and the bilinear reading of it, ¼ and ¾, are one kernel of four texels: ¼ ⅓ ⅓ 1/12 for a pixel
-// in the second row or column of a quad, from the texel before its own on; for one in the first the other way round, from
-// one further.
-vec4 finestTaps(int odd) {
-    return odd != 0 ? vec4(1.0 / 4.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 12.0) : vec4(1.0 / 12.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 4.0);
+// in the second row or column of a quad, from the texel before its own on; for one in the first its mirror image. Here times
+// three.
+float finestWeight(int i) {
+    return i == 0 ? 0.75 : i == 3 ? 0.25 : 1.0;
 }
 
-// A texel as reduced: the words of its light, and `surface`: fineSurfaces but for the depth. It gives the light that it has at the
-// pixel's depth, here over bankMostLit. `distance`: how far it is behind the pixel, in texel widths.
-void addReducedTap(inout vec4 lightAndArea, uvec2 words, float kernel, float distance, vec3 surface) {
-    float weight = depthWeight(distance, surface.x) * (kernel * surface.z);
-    float lit = clamp(fma(-surface.y, distance, 1.0 / bankMostLit), 0.0, 1.0);
-    lightAndArea += weight * vec4(lit * unpackLight(words).rgb, 1.0);
+// A texel as reduced: `tap`: light times area, and area; `surface`: fineSurfaces but for the depth. It gives the light that it has
+// at the pixel's depth, here over bankMostLit. `distance`: how far it is behind the pixel, in texel widths.
+void addReducedTap(inout vec4 lightAndArea, vec4 tap, float kernel, float distance, vec2 surface) {
+    float weight = kernel * depthWeight(distance, surface.x);
+    float lit = weight * clamp(fma(-surface.y, distance, 1.0 / bankMostLit), 0.0, 1.0);
+    lightAndArea += vec4(lit, lit, lit, weight) * tap;
+}
+
+// The same of a texel's second surface, which is one depth.
+void addSecondTap(inout vec4 lightAndArea, int index, float kernel, float distance) {
+    vec4 lightAndOwnArea = unpackLight(fineSecondLights[index]);
+    vec4 tap = vec4(lightAndOwnArea.rgb * lightAndOwnArea.a, lightAndOwnArea.a);
+    addReducedTap(lightAndArea, tap, kernel, distance, vec2(pixelScale, 0.0));
 }
 
 // Level 1, as the pixel sees it.
 void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint material) {
     float perWidth = 1.0 / texelWidth(1, depth);
     float ownDistance = depth * perWidth;
-    ivec2 odd = local & 1;
-    vec4 tapsX = finestTaps(odd.x);
-    vec4 tapsY = finestTaps(odd.y);
-    int first = fineIndex((local >> 1) + odd - 2);
+    ivec2 next = 2 * (local & 1) - 1; // which way the kernel goes
+    int row = fineIndex((local >> 1) - next);
     vec4 lightAndArea = vec4(0.0);
-    [[dont_unroll]] for (int y = 0; y < 4; ++y) {
+    [[dont_unroll]] for (int y = 0; y < 4; ++y, row += next.y * finePitch) {
         vec4 rowLightAndArea = vec4(0.0);
         [[unroll]] for (int x = 0; x < 4; ++x) {
-            int index = first + y * finePitch + x;
-            float kernel = !separateMaterials || exchanges(fineMaterials[index], material) ? tapsX[x] : 0.0;
-            vec4 surface = fineSurfaces[index];
-            addReducedTap(rowLightAndArea, fineLights[index], kernel, fma(surface.x, perWidth, -ownDistance), surface.yzw);
+            int index = row + x * next.x;
+            float kernel = !separateMaterials || exchanges(fineMaterials[index], material) ? finestWeight(x) : 0.0;
+            vec3 surface = fineSurfaces[index];
+            addReducedTap(rowLightAndArea, fineTaps[index], kernel, fma(surface.x, perWidth, -ownDistance), surface.yz);
             if (secondLevels > 0 && fineSecondDepths[index] > 0.0) {
-                addReducedTap(rowLightAndArea, fineSecondLights[index], kernel, fma(fineSecondDepths[index], perWidth, -ownDistance),
-                              vec3(pixelScale, 0.0, unpackHalf2x16(fineSecondLights[index].y).y));
+                addSecondTap(rowLightAndArea, index, kernel, fma(fineSecondDepths[index], perWidth, -ownDistance));
             }
         }
-        lightAndArea += tapsY[y] * rowLightAndArea;
+        lightAndArea += finestWeight(y) * rowLightAndArea;
     }
-    lightAndArea.rgb *= bankMostLit;
-    add(sum, weight, surfaceSeen(lightAndArea));
+    const float perKernel = 1.0 / 9.0;
+    add(sum, weight, surfaceSeen(lightAndArea * vec4(vec3(bankMostLit * perKernel), perKernel)));
 }
 
 // Texels of a level, weighted by place and depth, as a pixel sees them.

@@ -10,6 +10,8 @@
 const bool isEdge = false;
 #include "bank_combine.glsl"
 
+shared uvec2 fineLights[fineCount]; // of level 1's texels: light times mass, and mass
+
 // What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is.
 #ifdef HALF_FLOATS
 #define Real float16_t

@@ -40,8 +40,6 @@ const int ringCount = 2 * (regionSize.x + 2 + regionSize.y);
 shared uvec2 pixelLights[pixelCount];
 shared float pixelDepths[isEdge ? pixelCount : 1];
 shared uint pixelMaterials[isEdge && separateMaterials ? pixelCount : 1];
-// Of level 1's texels as reduced: their first two words, light and area; in smooth regions light times mass, and mass.
-shared uvec2 fineLights[fineCount];
 shared uvec2 levelLights[coarseRoom]; // as blurredLights
 // Of the same texels' surfaces. Where none is near, depth is so far that it weighs nothing.
 const float farAway = 1e15;
@@ -121,7 +119,7 @@ Coarse findCoarse(int number, ivec2 region) {
                   texel != inside);
 }
 
-// In fineLights; counted from the region's first texel.
+// Of level 1's texels in shared memory; counted from the region's first.
 int fineIndex(ivec2 texel) {
     return (texel.y + 2) * finePitch + texel.x + 2;
 }
