@@ -196,9 +196,9 @@ void addTap(inout Taps taps, float bilinear, uvec2 light, float distance, float 
     taps.away += weight * distance;
 }
 
-// A level with depth weights: light times mass, and mass. `share`: how much of it there is at the pixel's depth, [0, 1].
-vec4 weightedLevel(int level, Corner corner, float depth, uint material, out float share) {
-    float scale = levelScale(level, depth);
+// A level with depth weights: light times mass, and mass. `scale`: levelScale. `share`: how much of it there is at the pixel's
+// depth, [0, 1].
+vec4 weightedLevel(float scale, Corner corner, float depth, uint material, out float share) {
     vec2 rest = 1.0 - corner.fraction;
     Taps taps = Taps(vec4(0.0), 0.0, 0.0);
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -235,7 +235,8 @@ vec4 plainLevel(Corner corner) {
 vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth, uint material) {
     uint rough = separateMaterials ? ~0u : roughLevels;
     vec3 left = vec3(0.0);
-    [[dont_unroll]] for (int level = bankLevels; level >= 2; --level) {
+    float scale = levelScale(bankLevels, depth);
+    [[dont_unroll]] for (int level = bankLevels; level >= 2; --level, scale *= 4.0) {
         if ((used >> level & 2u) == 0u) {
             continue;
         }
@@ -245,7 +246,7 @@ vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
         if ((rough >> level & 1u) == 0u) {
             seen = plainLevel(corner);
         } else {
-            seen = weightedLevel(level, corner, depth, material, share);
+            seen = weightedLevel(scale, corner, depth, material, share);
         }
         vec3 weight = kernelWeight(mixture, level + 1) + left;
         add(sum, weight, seen);
