@@ -291,7 +291,7 @@ float unpackArea(uint areas, int i) {
     return uintBitsToFloat(0x3f800000u + ((areas >> 8 * i & 255u) << 17));
 }
 
-// Of a base that is 1 at no distance, its fourth power; 0 where it is negative.
+// Of a base that is largest, and at most 1, at no distance: its fourth power; 0 where it is negative.
 float falloffFrom(float base) {
     float least = clamp(base, 0.0, 1.0);
     float squared = least * least;

@@ -123,10 +123,8 @@ void addPixels(inout Sum sum, vec3 weight, ivec2 local, uint material, float dep
         int place = ownPlace(local, offset);
         float difference = pixelDepths[place] - depth;
         float root = (offset.x == 0 ? middleRoot : besideRoot) * (offset.y == 0 ? middleRoot : besideRoot);
-        float base = clamp(root - difference * difference * (root * scale), 0.0, 1.0);
-        base *= base;
         vec4 tap = unpackLight(pixelLights[place]);
-        float tapWeight = base * base * tap.a;
+        float tapWeight = falloffFrom(root - difference * difference * (root * scale)) * tap.a;
         if (separateMaterials) {
             tapWeight = exchanges(pixelMaterials[place], material) ? tapWeight : 0.0;
         }
@@ -235,7 +233,7 @@ vec4 plainLevel(Corner corner) {
 vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth, uint material) {
     uint rough = separateMaterials ? ~0u : roughLevels;
     vec3 left = vec3(0.0);
-    float scale = levelScale(bankLevels, depth);
+    float scale = levelScale(bankLevels, depth); // of a finer level four times that, whose texels are half as wide
     [[dont_unroll]] for (int level = bankLevels; level >= 2; --level, scale *= 4.0) {
         if ((used >> level & 2u) == 0u) {
             continue;
