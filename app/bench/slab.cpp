@@ -13,7 +13,7 @@ namespace {
 
 constexpr float slabWidth = 0.32f;
 constexpr float slabHeight = 0.18f;
-constexpr float slabThickness = 0.006f;
+constexpr float slabThickness = 0.0003f; // light shines through the narrowest material that a series has
 
 // A grid of `columns` x `rows` quads on z = `z`, from `left` to `right` as shares of the slab.
 struct Patch {

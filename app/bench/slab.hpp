@@ -5,7 +5,7 @@
 
 namespace nacre::bench {
 
-/// A slab of 320 mm x 180 mm that fills a picture of 16:9, seen from the front.
+/// A slab of 320 mm x 180 mm x 0.3 mm that fills a picture of 16:9, seen from the front.
 struct SlabSettings {
     std::uint32_t triangles = 20'000; ///< at least
     std::uint32_t materials = 1;      ///< patches in a grid, each with its own
