@@ -1,6 +1,7 @@
 #include "renderer/device_internal.hpp"
 
 #include "nacre/nacre.h"
+#include "renderer/shaders/shared.h"
 
 #include <algorithm>
 #include <array>
@@ -95,6 +96,12 @@ std::string findFault(const vk::raii::PhysicalDevice& device) {
     if (properties.limits.maxColorAttachments < neededColorAttachments) {
         return "it can write " + std::to_string(properties.limits.maxColorAttachments) +
                " images at a time, and the G-buffer has " + std::to_string(neededColorAttachments);
+    }
+    constexpr std::uint32_t invocations = shared::groupSize * shared::groupSize;
+    if (properties.limits.maxComputeWorkGroupInvocations < invocations) {
+        return "its compute workgroups have at most " +
+               std::to_string(properties.limits.maxComputeWorkGroupInvocations) + " invocations, and " +
+               std::to_string(invocations) + " are needed";
     }
     const NacreRequirements needed = effectRequirements();
     if (properties.limits.maxPerStageDescriptorSampledImages < needed.maxPerStageDescriptorSampledImages ||

@@ -14,7 +14,7 @@ using glm::vec4;
 #endif
 
 /// Side of a compute workgroup in pixels.
-NACRE_CONSTANT groupSize = 8;
+NACRE_CONSTANT groupSize = 16;
 
 NACRE_CONSTANT noShadow = 0xffffffffu;
 
