@@ -227,6 +227,8 @@ RenderOptions RenderOptionParser::finish() const {
         options.fieldOfView = static_cast<float>(*fieldOfView_ * std::numbers::pi / 180);
     }
     std::ranges::transform(aovs_, std::back_inserter(options.aovs), parseAov);
+    options.settings.thickness =
+        std::ranges::any_of(options.aovs, [](const AovOutput& aov) { return aov.output == Output::Thickness; });
     requireDistinctFiles(options);
     return options;
 }

@@ -8,6 +8,7 @@ namespace {
 
 struct RadiancePush {
     std::uint32_t scatter;
+    std::uint32_t scatteredHasAlbedo;
     std::uint32_t transmit;
 };
 
@@ -46,7 +47,8 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent) {
 }
 
 void Compose::recordRadiance(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const {
-    const RadiancePush push{settings.scatter ? 1u : 0u, settings.transmit ? 1u : 0u};
+    const RadiancePush push{settings.scatter ? 1u : 0u, settings.scatteredHasAlbedo ? 1u : 0u,
+                            settings.transmit ? 1u : 0u};
     radiancePass_.record(commandBuffer, radiance_.info().extent, bytesOf(push));
 }
 

@@ -20,6 +20,7 @@ public:
 
     struct Settings {
         bool scatter = true;
+        bool scatteredHasAlbedo = false; ///< Subsurface::scatteredHasAlbedo
         bool transmit = true;
         float exposure = 1;
         std::uint32_t samples = 1; ///< per axis and pixel of the picture

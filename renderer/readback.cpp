@@ -64,18 +64,20 @@ Pixels read(Gpu& gpu, Image& image, const Names& channels) {
             toFloats(image.info().format, downloadImage(gpu, image), channels.size())};
 }
 
-/// The irradiance after scattering: where there is a material, the effect's output over the albedo, which it has in it.
+/// The irradiance after scattering: where there is a material, the effect's output, over the albedo if it has that in
+/// it.
 Pixels readScattered(Gpu& gpu, const FrameImages& images) {
     Pixels pixels = read(gpu, images.lighting.irradiance(), rgb);
     if (!images.scatter) {
         return pixels;
     }
     const Pixels scattered = read(gpu, images.subsurface.scattered(), rgb);
+    const bool hasAlbedo = images.subsurface.scatteredHasAlbedo();
     const Pixels albedo = read(gpu, images.gbuffer.image(GBuffer::Albedo), rgb);
     const Pixels material = read(gpu, images.gbuffer.image(GBuffer::MaterialId), {"ID"});
     for (std::size_t i = 0; i < pixels.values.size(); ++i) {
         if (material.values[i / rgb.size()] != 0) {
-            const float share = albedo.values[i];
+            const float share = hasAlbedo ? albedo.values[i] : 1.0f;
             pixels.values[i] = share > 0 ? scattered.values[i] / share : 0.0f;
         }
     }

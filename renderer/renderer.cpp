@@ -162,7 +162,8 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
       subsurface(part("effect: outputs",
                       [&] {
                           return Subsurface(gpu,
-                                            {extent, framesInFlight, 1 + settings.effectRepetitions, metersPerUnit},
+                                            {extent, framesInFlight, 1 + settings.effectRepetitions, metersPerUnit,
+                                             settings.thickness},
                                             input.materials, lights.lights);
                       })),
       compose(part("compose and tone map",
@@ -192,7 +193,6 @@ void Renderer::Implementation::recordPass(const vk::raii::CommandBuffer& command
 void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frameIndex,
                                       const View& view, Timing timing) {
     const auto pass = [&](const char* name, const auto& recorder) { recordPass(commandBuffer, name, recorder); };
-    const Compose::Settings look{settings.scatter, settings.transmit, exposure, settings.samples, settings.dither};
     subsurface.beginFrame(frameIndex);
     timer.begin(commandBuffer, timing);
     pass("shadow maps", [&] { shadowMaps.record(commandBuffer, scene); });
@@ -200,6 +200,9 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
     pass("ambient occlusion", [&] { occlusion.record(commandBuffer, occlusionRadius * sceneBounds.radius()); });
     pass("lighting", [&] { lighting.record(commandBuffer); });
     recordEffect(commandBuffer, frameIndex, view);
+    const Compose::Settings look{settings.scatter,  subsurface.scatteredHasAlbedo(),
+                                 settings.transmit, exposure,
+                                 settings.samples,  settings.dither};
     pass("compose", [&] { compose.recordRadiance(commandBuffer, look); });
     pass("tone map", [&] { compose.recordColor(commandBuffer, look); });
     timer.end(commandBuffer);
@@ -319,6 +322,9 @@ Pixels Renderer::read(Output output) const {
     Implementation& self = *implementation_;
     if (!self.rendered) {
         throw RendererError("there is no picture to read before one has been rendered");
+    }
+    if (output == Output::Thickness && !self.settings.thickness) {
+        throw RendererError("the thickness cannot be read, RenderSettings::thickness is false");
     }
     Pixels pixels;
     guard([&] {

@@ -138,7 +138,9 @@ Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& 
     constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
     scattered_ = makeOutput(gpu, "scattered", color, info.extent, NACRE_IMAGE_SCATTERED);
     transmitted_ = makeOutput(gpu, "transmitted", color, info.extent, NACRE_IMAGE_TRANSMITTED);
-    thickness_ = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, info.extent, NACRE_IMAGE_THICKNESS_OUT);
+    if (info.thickness) {
+        thickness_ = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, info.extent, NACRE_IMAGE_THICKNESS_OUT);
+    }
     translucencies_ = Buffer(gpu, "translucencies", (materials.size() + 1) * sizeof(float),
                              vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
     createContext(gpu);
@@ -207,16 +209,19 @@ void Subsurface::beginFrame(std::uint32_t index) {
 void Subsurface::prepareImages(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
                                Image& shadowMaps) {
     GBuffer& gbuffer = frame.gbuffer;
-    prepare(commandBuffer, {{irradiance, usage::computeRead},
-                            {gbuffer.image(GBuffer::Depth), usage::computeRead},
-                            {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
-                            {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
-                            {gbuffer.image(GBuffer::Albedo), usage::computeRead},
-                            {gbuffer.image(GBuffer::Thickness), usage::computeRead},
-                            {shadowMaps, usage::computeRead},
-                            {scattered_, usage::computeWrite},
-                            {transmitted_, usage::computeWrite},
-                            {thickness_, usage::computeWrite}});
+    std::vector<ImageUse> uses{{irradiance, usage::computeRead},
+                               {gbuffer.image(GBuffer::Depth), usage::computeRead},
+                               {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
+                               {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
+                               {gbuffer.image(GBuffer::Albedo), usage::computeRead},
+                               {gbuffer.image(GBuffer::Thickness), usage::computeRead},
+                               {shadowMaps, usage::computeRead},
+                               {scattered_, usage::computeWrite},
+                               {transmitted_, usage::computeWrite}};
+    if (info_.thickness) {
+        uses.push_back({thickness_, usage::computeWrite});
+    }
+    prepare(commandBuffer, uses);
 }
 
 void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
@@ -241,7 +246,9 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     info.shadowMaps = &maps;
     info.thesisTransmittance = settings.thesisTransmittance;
     info.transmitted = convert(transmitted_);
-    info.thicknessOut = convert(thickness_);
+    if (info_.thickness) {
+        info.thicknessOut = convert(thickness_);
+    }
     info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ");
     check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
 }
@@ -266,7 +273,6 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     Image& depth = gbuffer.image(GBuffer::Depth);
     Image& materialId = gbuffer.image(GBuffer::MaterialId);
     Image& normal = gbuffer.image(GBuffer::VertexNormal);
-    Image& albedo = gbuffer.image(GBuffer::Albedo);
     const NacreCost cost = scatterCost(settings.technique);
     NacreScatterInfo info{};
     info.view = makeView(frame.view);
@@ -280,7 +286,11 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     info.depth = convert(depth);
     info.materialId = convert(materialId);
     info.normal = convert(normal);
-    info.albedo = convert(albedo);
+    scatteredHasAlbedo_ = std::ranges::any_of(
+        materials_, [](const Material& material) { return material.albedoUse == AlbedoUse::PreAndPost; });
+    if (scatteredHasAlbedo_) {
+        info.albedo = convert(gbuffer.image(GBuffer::Albedo));
+    }
     info.scattered = convert(scattered_);
     info.skipUnscattered = VK_TRUE; // compose asks the id
     info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ");

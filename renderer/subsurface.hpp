@@ -22,16 +22,20 @@ public:
         std::uint32_t framesInFlight = 1;
         std::uint32_t recordsPerFrame = 1; ///< of the effect
         float metersPerUnit = 1;
+        bool thickness = false; ///< RenderSettings::thickness
     };
 
     Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
                const std::vector<PlacedLight>& lights);
 
-    /// Scattered light with the albedo in it (RGBA16F). Pixels without a material are not written.
+    /// Scattered light (RGBA16F). Pixels without a material are not written.
     Image& scattered() { return scattered_; }
+    /// Whether the last `scatter` has put the albedo in it, as it must where materials apply it before, too; else it is
+    /// left to compose, which reads it anyway.
+    bool scatteredHasAlbedo() const { return scatteredHasAlbedo_; }
     /// Transmitted irradiance, without albedo. RGBA16F.
     Image& transmitted() { return transmitted_; }
-    /// The thickness transmission used, mm, 0 where there was none. R16F.
+    /// The thickness transmission used, mm, 0 where there was none (R16F); only where Info::thickness asks for it.
     Image& thickness() { return thickness_; }
     /// Material translucency by id, for compose.
     const Buffer& translucencies() const { return translucencies_; }
@@ -76,6 +80,7 @@ private:
     Image thickness_;
     Buffer translucencies_;
     std::vector<Material> materials_;
+    bool scatteredHasAlbedo_ = false;
     std::uint32_t techniques_;                 ///< NacreContextInfo::techniques
     std::optional<std::uint32_t> bakedRadius_; ///< of the first material as it is
     std::unique_ptr<std::string> message_;     ///< the effect's last error; its address is known to the context

@@ -21,12 +21,13 @@ layout(set = 0, binding = 5) uniform sampler2D emissionImage;
 layout(set = 0, binding = 6) uniform usampler2D materialIdImage;
 layout(set = 0, binding = 7) uniform sampler2D irradianceImage;
 layout(set = 0, binding = 8) uniform sampler2D specularImage;
-layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // has the albedo in it; written where there is a material
+layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // written where there is a material
 layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
 layout(set = 0, binding = 11) uniform sampler2D environmentImage;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outRadiance;
 layout(push_constant) uniform Push {
     uint scatter;
+    uint scatteredHasAlbedo;
     uint transmit;
 };
 
@@ -35,8 +36,11 @@ layout(push_constant) uniform Push {
 vec3 diffuseRadiance(ivec2 pixel) {
     vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
     uint material = texelFetch(materialIdImage, pixel, 0).r;
-    vec3 reflected = scatter != 0u && material != 0u ? texelFetch(scatteredImage, pixel, 0).rgb
-                                                     : albedo * texelFetch(irradianceImage, pixel, 0).rgb;
+    bool isScattered = scatter != 0u && material != 0u;
+    vec3 reflected = isScattered ? texelFetch(scatteredImage, pixel, 0).rgb : texelFetch(irradianceImage, pixel, 0).rgb;
+    if (!isScattered || scatteredHasAlbedo == 0u) {
+        reflected *= albedo;
+    }
     vec3 transmitted = vec3(0.0);
     if (transmit != 0u) {
         reflected *= 1.0 - translucencies[material];

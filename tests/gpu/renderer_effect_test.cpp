@@ -75,7 +75,9 @@ TEST_F(Effect, LightsWithoutShadowMapNeverGlow) {
     EXPECT_EQ(at(render(scene, effectSettings()).read(Output::Transmitted), 80, 45), 0);
     // Unless the thickness is authored.
     scene.surfaces[0].thickness = 2;
-    const renderer::Renderer authored = render(scene, effectSettings());
+    renderer::RenderSettings settings = effectSettings();
+    settings.thickness = true;
+    const renderer::Renderer authored = render(scene, settings);
     EXPECT_GT(at(authored.read(Output::Transmitted), 80, 45), 0.1f);
     EXPECT_NEAR(at(authored.read(Output::Thickness), 80, 45), 2, 0.01f);
 }

@@ -104,6 +104,12 @@ TEST_F(Errors, DevicesThatAreNotThere) {
               devices[0].name.substr(0, 4));
 }
 
+TEST_F(Errors, ReadingAThicknessThatNobodyAskedFor) {
+    const renderer::Renderer renderer = render(plane(), plainSettings());
+    EXPECT_THROW(renderer.read(renderer::Output::Thickness), renderer::RendererError);
+    EXPECT_NO_THROW(renderer.read(renderer::Output::Transmitted));
+}
+
 TEST_F(Errors, ReadingBeforeRendering) {
     const renderer::Renderer renderer(device(), plane(), plainSettings());
     EXPECT_THROW(renderer.read(renderer::Output::Color), renderer::RendererError);
