@@ -63,8 +63,8 @@ struct Context {
     Programs scatter;
     Programs transmit;
     std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass, then materialPasses
-    /// As pipelines, for frames with separate materials; null where the pass does not ask.
-    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> separatePipelines;
+    /// As pipelines, for separate materials or several shadow maps; null where the pass does not ask.
+    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> askingPipelines;
     std::vector<Owned<VkPipeline>> bakedThesis; ///< the thesis's materialPasses; empty = not baked
     std::uint32_t bakedThesisRadius = 0;
     NacreMemory givenMemory{};                ///< the caller's, for the intermediates

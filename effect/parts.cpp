@@ -91,6 +91,7 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.writes = bindingBits(pass.writes);
     result.perMaterial = perMaterial;
     result.asksMaterials = pass.asksMaterials;
+    result.asksShadowMaps = pass.asksShadowMaps;
     if (pass.indirect == Intermediate::Count) {
         result.groups = pass.grid(area);
     } else {

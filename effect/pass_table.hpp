@@ -64,6 +64,8 @@ struct Pass {
     /// Whether there is a second pipeline, with the constant separateMaterials true, for frames where some materials do
     /// not exchange light with some others: asking costs nothing where no one does.
     bool asksMaterials = false;
+    /// The same with the constant severalShadowMaps, for calls with more than one.
+    bool asksShadowMaps = false;
 };
 
 /// Sizes of the bank's buffers (scatter_bank.cpp).

@@ -56,9 +56,10 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
     return {device, pipeline, device.vk.DestroyPipeline};
 }
 
-constexpr VkBool32 separateMaterials = VK_TRUE;
-constexpr VkSpecializationMapEntry separateEntry{0, 0, sizeof(separateMaterials)};
-constexpr VkSpecializationInfo separateConstants{1, &separateEntry, sizeof(separateMaterials), &separateMaterials};
+// Of the pipelines that ask: separateMaterials or severalShadowMaps.
+constexpr VkBool32 asks = VK_TRUE;
+constexpr VkSpecializationMapEntry asksEntry{0, 0, sizeof(asks)};
+constexpr VkSpecializationInfo asksConstants{1, &asksEntry, sizeof(asks), &asks};
 
 void createPrograms(Context& context, VkPipelineCache cache) {
     createLayout(context, context.scatter, CallKind::Scatter);
@@ -73,9 +74,10 @@ void createPrograms(Context& context, VkPipelineCache cache) {
             for (Pass pass : part) {
                 pass.spirv = context.shaderFloat16 && !pass.halfSpirv.empty() ? pass.halfSpirv : pass.spirv;
                 context.pipelines[i].push_back(createPipeline(context.device, layout, pass, cache));
-                context.separatePipelines[i].push_back(
-                    pass.asksMaterials ? createPipeline(context.device, layout, pass, cache, &separateConstants)
-                                       : Owned<VkPipeline>());
+                context.askingPipelines[i].push_back(
+                    pass.asksMaterials || pass.asksShadowMaps
+                        ? createPipeline(context.device, layout, pass, cache, &asksConstants)
+                        : Owned<VkPipeline>());
             }
         }
     }

@@ -184,11 +184,11 @@ void recordPasses(const PassRecording& recording) {
         arguments |= pass.writes;
     };
     const std::span pipelines(recording.context.pipelines[recording.technique]);
-    const std::span separatePipelines(recording.context.separatePipelines[recording.technique]);
+    const std::span askingPipelines(recording.context.askingPipelines[recording.technique]);
     const auto passCount = static_cast<std::uint32_t>(technique.passes.size());
     for (std::uint32_t i = 0; i < passCount; ++i) {
-        const bool separate = recording.separate && technique.passes[i].asksMaterials;
-        record(technique.passes[i], separate ? separatePipelines[i] : pipelines[i]);
+        const bool asks = recording.asks && askingPipelines[i].get() != VK_NULL_HANDLE;
+        record(technique.passes[i], asks ? askingPipelines[i] : pipelines[i]);
         timestamp(recording, i + 1);
     }
     if (!technique.materialPasses.empty()) {

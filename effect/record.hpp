@@ -45,7 +45,8 @@ struct PassRecording {
     NacreTimestamps timestamps;
     IntermediateSet intermediates; ///< what this call touches; with none, it does not wait for what was recorded before
     std::uint32_t materialCount = 0; ///< the technique's materialPasses run for the slots 1 … materialCount
-    bool separate = false;           ///< some materials do not exchange light with some others
+    bool asks = false;               ///< Context::askingPipelines: some materials do not exchange light with some
+                                     ///< others, or there are several shadow maps
     bool baked = false;              ///< those with the kernel of nacreBakeThesisKernel
 };
 

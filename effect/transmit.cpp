@@ -51,7 +51,8 @@ constexpr Pass passes[] = {
      .file = "transmit",
      .spirv = transmit_spv,
      .reads = bit(Intermediate::NoShadowMap),
-     .grid = tiles<8, 16>},
+     .grid = tiles<8, 16>,
+     .asksShadowMaps = true},
 };
 
 constexpr struct {
@@ -122,7 +123,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, record.set, area.extent, info.timestamps,
-                  maps.empty() ? transmitTechnique.uses() : 0});
+                  maps.empty() ? transmitTechnique.uses() : 0, 0, maps.size() > 1});
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared.h"
 
+layout(constant_id = 0) const bool severalShadowMaps = false; // else all lights have the first
+
 layout(local_size_x = 8, local_size_y = 16) in;
 layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
     TransmitParameters parameters;
@@ -136,22 +138,27 @@ ShadowPoint project(LightParameters light, Receiver receiver) {
 // 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
 // groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
 mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
-    mat4 stored = mat4(0.0);
 #define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
 #define ROW(index, row)                                                                                                \
     vec4(TEXEL(index, columns.x, row), TEXEL(index, columns.y, row), TEXEL(index, columns.z, row),                     \
          TEXEL(index, columns.w, row))
+#define TEXELS(index) mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w))
 #define FETCH(index)                                                                                                   \
     for (bool here = map == index; here; here = false) {                                                               \
-        stored = mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w));                 \
+        stored = TEXELS(index);                                                                                        \
     }
 #define FETCH_GROUP(first)                                                                                             \
     for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
         FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
     }
+    if (!severalShadowMaps) {
+        return TEXELS(0);
+    }
+    mat4 stored = mat4(0.0);
     FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
 #undef FETCH_GROUP
 #undef FETCH
+#undef TEXELS
 #undef ROW
 #undef TEXEL
     return stored;
@@ -259,7 +266,8 @@ void main() {
         return;
     }
     ivec2 pixel = local + view.areaOffset;
-    uint slot = slots[texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u)];
+    uint id = texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u);
+    uint slot = id != 0u ? slots[id] : 0u; // most pixels then wait for their id alone
     if (slot == 0u) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;

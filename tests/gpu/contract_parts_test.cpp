@@ -95,9 +95,13 @@ TEST_F(PartsTest, TransmitIsThatOfAContext) {
     PartsEngine engine(gpu, NACRE_TECHNIQUE_TRANSMIT, extent, 2, 3);
     engine.setMaterials(materials_);
     const ScatterImages images(gpu, scene(true));
-    GpuImage map = gpu.createImage({.format = VK_FORMAT_R32_SFLOAT, .extent = {16, 16}, .layers = 6});
-    gpu.upload(map, std::vector<float>(16 * 16 * 6, 0.3f));
-    const NacreImage maps[] = {map.nacre()};
+    GpuImage mapImages[2];
+    NacreImage maps[2];
+    for (int i = 0; i < 2; ++i) {
+        mapImages[i] = gpu.createImage({.format = VK_FORMAT_R32_SFLOAT, .extent = {16, 16}, .layers = 6});
+        gpu.upload(mapImages[i], std::vector<float>(16 * 16 * 6, 0.3f + 0.0005f * static_cast<float>(i)));
+        maps[i] = mapImages[i].nacre();
+    }
     NacreLight lights[3]{};
     for (int i = 0; i < 3; ++i) {
         NacreLight& light = lights[i];
@@ -120,25 +124,31 @@ TEST_F(PartsTest, TransmitIsThatOfAContext) {
         gpu.upload(pair[0], std::vector<Float4>(extent.width * extent.height));
         gpu.upload(pair[1], std::vector<float>(extent.width * extent.height));
     }
-    NacreTransmitInfo info = images.transmitInfo(lights, maps);
-    info.filterRadius = 1;
-    ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
-    gpu.run([&](VkCommandBuffer commandBuffer) {
-        info.transmitted = outputs[0][0].nacre();
-        info.thicknessOut = outputs[0][1].nacre();
-        EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &info), NACRE_SUCCESS);
-        info.transmitted = outputs[1][0].nacre();
-        info.thicknessOut = outputs[1][1].nacre();
-        engine.transmit(commandBuffer, info);
-    });
-    const std::vector<Float4> expected = gpu.download<Float4>(outputs[0][0]);
-    float brightest = 0;
-    for (const Float4& pixel : expected) {
-        brightest = std::max(brightest, pixel[0]);
+    std::vector<Float4> before;
+    for (const std::uint32_t mapCount : {1u, 2u}) {
+        lights[2].shadowMap = mapCount - 1;
+        NacreTransmitInfo info = images.transmitInfo(lights, std::span(maps).first(mapCount));
+        info.filterRadius = 1;
+        ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
+        gpu.run([&](VkCommandBuffer commandBuffer) {
+            info.transmitted = outputs[0][0].nacre();
+            info.thicknessOut = outputs[0][1].nacre();
+            EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &info), NACRE_SUCCESS);
+            info.transmitted = outputs[1][0].nacre();
+            info.thicknessOut = outputs[1][1].nacre();
+            engine.transmit(commandBuffer, info);
+        });
+        const std::vector<Float4> expected = gpu.download<Float4>(outputs[0][0]);
+        float brightest = 0;
+        for (const Float4& pixel : expected) {
+            brightest = std::max(brightest, pixel[0]);
+        }
+        EXPECT_GT(brightest, 0.1f);
+        EXPECT_NE(expected, before) << "the second map is another";
+        EXPECT_EQ(gpu.download<Float4>(outputs[1][0]), expected);
+        EXPECT_EQ(gpu.download<float>(outputs[1][1]), gpu.download<float>(outputs[0][1]));
+        before = expected;
     }
-    EXPECT_GT(brightest, 0.1f);
-    EXPECT_EQ(gpu.download<Float4>(outputs[1][0]), expected);
-    EXPECT_EQ(gpu.download<float>(outputs[1][1]), gpu.download<float>(outputs[0][1]));
 }
 
 TEST_F(PartsTest, ListsNameWhatAContextHas) {

@@ -256,6 +256,25 @@ TEST_F(TransmitTest, LightsAddUp) {
     }
 }
 
+TEST_F(TransmitTest, EveryLightHasTheShadowMapThatItNames) {
+    NacreLight source = light(NACRE_LIGHT_SPOT);
+    std::vector<Slab> slabs;
+    std::vector<GpuImage> images;
+    std::vector<NacreImage> maps;
+    for (std::uint32_t i = 0; i < NACRE_MAX_SHADOW_MAPS; ++i) {
+        slabs.push_back({.thickness = 0.5 + 0.25 * i});
+        images.push_back(shadowMap(source, slabs.back()));
+        maps.push_back(images.back().nacre());
+    }
+    for (const std::size_t count : {std::size_t{2}, maps.size()}) {
+        for (source.shadowMap = 0; source.shadowMap < count; ++source.shadowMap) {
+            SCOPED_TRACE("shadow map " + std::to_string(source.shadowMap) + " of " + std::to_string(count));
+            expectSlab(marble(), source, slabs[source.shadowMap],
+                       transmit(opaqueTo(marble()), {&source, 1}, std::span(maps).first(count)), 0.02);
+        }
+    }
+}
+
 TEST_F(TransmitTest, AuthoredThicknessBoundsOrStandsIn) {
     const Slab slab{.thickness = 3};
     NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);

@@ -95,21 +95,21 @@ void PartsEngine::createPipelines() {
     check(nacreGetPasses(technique_, maxExtent_, &count, nullptr));
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, maxExtent_, &count, passes.data()));
-    for (const VkBool32 separate : {VK_FALSE, VK_TRUE}) {
+    for (const VkBool32 asks : {VK_FALSE, VK_TRUE}) {
         for (const NacrePass& pass : passes) {
             VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
             moduleInfo.codeSize = pass.spirvSize;
             moduleInfo.pCode = pass.spirv;
-            const VkSpecializationMapEntry entry{0, 0, sizeof(separate)};
-            const VkSpecializationInfo constants{1, &entry, sizeof(separate), &separate};
+            const VkSpecializationMapEntry entry{0, 0, sizeof(asks)};
+            const VkSpecializationInfo constants{1, &entry, sizeof(asks), &asks};
             VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
             info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
             info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
             info.stage.pName = "main";
-            info.stage.pSpecializationInfo = pass.asksMaterials ? &constants : nullptr;
+            info.stage.pSpecializationInfo = pass.asksMaterials || pass.asksShadowMaps ? &constants : nullptr;
             info.layout = layout_;
             check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &info.stage.module));
-            VkPipeline& pipeline = pipelines_[separate].emplace_back();
+            VkPipeline& pipeline = pipelines_[asks].emplace_back();
             check(vkCreateComputePipelines(gpu_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
             vkDestroyShaderModule(gpu_.device, info.stage.module, nullptr);
         }
@@ -181,7 +181,7 @@ void PartsEngine::setMaterials(std::span<const NacreMaterial> materials) {
     }
     // [end]
     slotCount_ = static_cast<std::uint32_t>(materials.size());
-    separate_ = common == 0;
+    asks_ = common == 0;
 }
 
 void PartsEngine::bind(const NacreBinding& binding, std::span<const NacreImage> images, const NacreImage& fallback) {
@@ -252,13 +252,14 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
     const Buffer& parameters = buffers_.at("parameters");
     check(nacreFillTransmitParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
     const Buffer& lights = buffers_.at("lights");
+    asks_ = info.shadowMapCount > 1;
     check(nacreFillLights(&info, &messages, info.lightCount * lights.binding.stride, lights.mapped));
     const VkExtent2D area = info.view.renderArea.extent;
     recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent);
 }
 
 void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area) {
-    const std::vector<VkPipeline>& pipelines = pipelines_[separate_];
+    const std::vector<VkPipeline>& pipelines = pipelines_[asks_];
     std::uint32_t count = static_cast<std::uint32_t>(pipelines.size());
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, area, &count, passes.data()));

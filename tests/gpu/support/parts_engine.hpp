@@ -42,11 +42,11 @@ private:
     NacreTechnique technique_;
     VkExtent2D maxExtent_;
     std::uint32_t slotCount_ = 0; ///< materials that are set
-    bool separate_ = false;       ///< no exchange group holds them all
+    bool asks_ = false;           ///< no exchange group holds them all, or there are several shadow maps
     std::vector<NacreBinding> bindings_;
     std::map<std::string, Buffer> buffers_;
     std::map<std::uint32_t, GpuImage> images_; ///< intermediates by binding
-    std::vector<VkPipeline> pipelines_[2];     ///< by separate_
+    std::vector<VkPipeline> pipelines_[2];     ///< by asks_
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;

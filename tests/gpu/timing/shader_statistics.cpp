@@ -29,7 +29,7 @@ struct Options {
 struct Program {
     std::string technique, pass, form;
     std::span<const std::uint32_t> spirv;
-    VkBool32 separateMaterials = VK_FALSE;
+    VkBool32 asks = VK_FALSE;
 };
 
 vk::raii::PhysicalDevice findDevice(const vk::raii::Instance& instance) {
@@ -86,6 +86,9 @@ std::vector<Program> programsOf(NacreTechnique technique, const std::string& nam
         if (pass.asksMaterials) {
             programs.push_back({name, pass.name, "separate materials", spirv, VK_TRUE});
         }
+        if (pass.asksShadowMaps) {
+            programs.push_back({name, pass.name, "several shadow maps", spirv, VK_TRUE});
+        }
         if (pass.halfSpirv != nullptr && halfFloats) {
             programs.push_back(
                 {name, pass.name, "half floats", {pass.halfSpirv, pass.halfSpirvSize / sizeof(std::uint32_t)}});
@@ -98,9 +101,9 @@ vk::raii::Pipeline makePipeline(const vk::raii::Device& device, const vk::raii::
                                 const Program& program) {
     const vk::raii::ShaderModule module(device, vk::ShaderModuleCreateInfo({}, program.spirv));
     const vk::SpecializationMapEntry entry(0, 0, sizeof(VkBool32));
-    const vk::SpecializationInfo constants(1, &entry, sizeof(VkBool32), &program.separateMaterials);
+    const vk::SpecializationInfo constants(1, &entry, sizeof(VkBool32), &program.asks);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
-                                                  program.separateMaterials ? &constants : nullptr);
+                                                  program.asks ? &constants : nullptr);
     return {device, nullptr,
             vk::ComputePipelineCreateInfo(vk::PipelineCreateFlagBits::eCaptureStatisticsKHR, stage, *layout)};
 }
