@@ -17,7 +17,7 @@ enum class Technique { Default, Bank, BankSurfaces, Separable, Burley, Thesis, B
 enum class Output {
     Color,       ///< R G B, the picture: 8-bit sRGB values / 255
     Irradiance,  ///< R G B, diffuse light without albedo and specular
-    Scattered,   ///< R G B, irradiance after scattering (the effect's output over the albedo)
+    Scattered,   ///< R G B, irradiance after scattering (the effect's output, without albedo)
     Transmitted, ///< R G B, light that came through, as irradiance, the material's translucency in it
     Depth,       ///< Z, distance along the view direction in scene units; infinite where there is nothing
     Normal,      ///< X Y Z, shading normal in world space; zero where there is nothing
