@@ -73,7 +73,7 @@ Pixels readScattered(Gpu& gpu, const FrameImages& images) {
     }
     const Pixels scattered = read(gpu, images.subsurface.scattered(), rgb);
     const bool hasAlbedo = images.subsurface.scatteredHasAlbedo();
-    const Pixels albedo = read(gpu, images.gbuffer.image(GBuffer::Albedo), rgb);
+    const Pixels albedo = hasAlbedo ? read(gpu, images.gbuffer.image(GBuffer::Albedo), rgb) : Pixels{};
     const Pixels material = read(gpu, images.gbuffer.image(GBuffer::MaterialId), {"ID"});
     for (std::size_t i = 0; i < pixels.values.size(); ++i) {
         if (material.values[i / rgb.size()] != 0) {
