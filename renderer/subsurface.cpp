@@ -209,19 +209,17 @@ void Subsurface::beginFrame(std::uint32_t index) {
 void Subsurface::prepareImages(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
                                Image& shadowMaps) {
     GBuffer& gbuffer = frame.gbuffer;
-    std::vector<ImageUse> uses{{irradiance, usage::computeRead},
-                               {gbuffer.image(GBuffer::Depth), usage::computeRead},
-                               {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
-                               {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
-                               {gbuffer.image(GBuffer::Albedo), usage::computeRead},
-                               {gbuffer.image(GBuffer::Thickness), usage::computeRead},
-                               {shadowMaps, usage::computeRead},
-                               {scattered_, usage::computeWrite},
-                               {transmitted_, usage::computeWrite}};
-    if (info_.thickness) {
-        uses.push_back({thickness_, usage::computeWrite});
-    }
-    prepare(commandBuffer, uses);
+    const ImageUse uses[] = {{irradiance, usage::computeRead},
+                             {gbuffer.image(GBuffer::Depth), usage::computeRead},
+                             {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
+                             {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
+                             {gbuffer.image(GBuffer::Albedo), usage::computeRead},
+                             {gbuffer.image(GBuffer::Thickness), usage::computeRead},
+                             {shadowMaps, usage::computeRead},
+                             {scattered_, usage::computeWrite},
+                             {transmitted_, usage::computeWrite},
+                             {thickness_, usage::computeWrite}}; // last: only where there is one
+    prepare(commandBuffer, std::span(uses).first(std::size(uses) - (info_.thickness ? 0 : 1)));
 }
 
 void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
