@@ -200,9 +200,12 @@ void Renderer::Implementation::record(const vk::raii::CommandBuffer& commandBuff
     pass("ambient occlusion", [&] { occlusion.record(commandBuffer, occlusionRadius * sceneBounds.radius()); });
     pass("lighting", [&] { lighting.record(commandBuffer); });
     recordEffect(commandBuffer, frameIndex, view);
-    const Compose::Settings look{settings.scatter,  subsurface.scatteredHasAlbedo(),
-                                 settings.transmit, exposure,
-                                 settings.samples,  settings.dither};
+    const Compose::Settings look{.scatter = settings.scatter,
+                                 .scatteredHasAlbedo = subsurface.scatteredHasAlbedo(),
+                                 .transmit = settings.transmit,
+                                 .exposure = exposure,
+                                 .samples = settings.samples,
+                                 .dither = settings.dither};
     pass("compose", [&] { compose.recordRadiance(commandBuffer, look); });
     pass("tone map", [&] { compose.recordColor(commandBuffer, look); });
     timer.end(commandBuffer);
