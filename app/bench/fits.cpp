@@ -1,6 +1,7 @@
 #include "app/bench/fits.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -27,17 +28,32 @@ std::vector<Group> groupsOf(const std::vector<Measurement>& measurements) {
     return groups;
 }
 
-// The quantities that every measurement of the group has.
-std::vector<std::string> quantitiesOf(const Group& group) {
-    std::vector<std::string> quantities{"effect", "frame"};
-    for (const PassResult& pass : group.front()->passes) {
-        const bool everywhere = std::all_of(group.begin(), group.end(), [&](const Measurement* measurement) {
-            return findTime(*measurement, pass.name) != nullptr;
-        });
-        if (everywhere) {
-            quantities.push_back(pass.name);
+// Median in µs; none where the measurement has no such quantity.
+std::optional<double> findMedian(const Measurement& measurement, const std::string& quantity) {
+    if (quantity != scatterQuantity) {
+        const Summary* time = findTime(measurement, quantity);
+        return time ? std::optional(time->median) : std::nullopt;
+    }
+    std::optional<double> sum;
+    for (const PassResult& pass : measurement.passes) {
+        if (pass.name.starts_with("scatter: ")) { // FrameReport::passes
+            sum = sum.value_or(0) + pass.time.median;
         }
     }
+    return sum;
+}
+
+// The quantities that every measurement of the group has.
+std::vector<std::string> quantitiesOf(const Group& group) {
+    std::vector<std::string> quantities{"effect", "frame", scatterQuantity};
+    for (const PassResult& pass : group.front()->passes) {
+        quantities.push_back(pass.name);
+    }
+    std::erase_if(quantities, [&](const std::string& quantity) {
+        return !std::all_of(group.begin(), group.end(), [&](const Measurement* measurement) {
+            return findMedian(*measurement, quantity).has_value();
+        });
+    });
     return quantities;
 }
 
@@ -47,7 +63,7 @@ Fit fit(const Group& group, const std::string& quantity) {
     double noise = 0;
     for (const Measurement* measurement : group) {
         x.push_back(measurement->value);
-        y.push_back(findTime(*measurement, quantity)->median);
+        y.push_back(*findMedian(*measurement, quantity));
         noise = std::max(noise, measurement->noise);
     }
     const auto [first, last] = std::minmax_element(x.begin(), x.end());

@@ -22,17 +22,17 @@ std::string table(const std::vector<std::string>& header, const std::string& row
     return rows.empty() ? "" : row(header) + row(std::vector<std::string>(header.size(), "---")) + rows + "\n";
 }
 
-std::string slopes(const Results& results) {
+std::string slopes(const Results& results, const std::string& quantity, const std::string& title) {
     std::string rows;
     for (const Fit& fit : results.fits) {
-        if (fit.quantity == "effect") {
+        if (fit.quantity == quantity) {
             rows += row({fit.series, fit.technique, fit.width == 0 ? "all" : formatSize(fit.width, fit.height),
                          formatSlope(fit), formatNumber(fit.line.rSquared, 4), formatNumber(fit.spread) + "×",
                          formatShare(fit.noise), verdictOf(fit)});
         }
     }
-    return table({"series", "technique", "size", "slope of the effect's time (95 %)", "R²", "largest / smallest",
-                  "noise", "verdict"},
+    return table({"series", "technique", "size", "slope of " + title + " (95 %)", "R²", "largest / smallest", "noise",
+                  "verdict"},
                  rows);
 }
 
@@ -78,7 +78,8 @@ std::string formatMarkdown(const Results& results) {
         text += "The passes of a frame, timed one by one, add up to " + formatPassShares(results) +
                 " of the frame timed as a whole.\n\n";
     }
-    return text + conclude(results) + "\n\n" + slopes(results) + errors(results);
+    return text + conclude(results) + "\n\n" + slopes(results, "effect", "the effect's time") +
+           slopes(results, scatterQuantity, "scatter's") + errors(results);
 }
 
 } // namespace nacre::bench

@@ -57,15 +57,18 @@ std::vector<std::string> slopeHeader() {
             "largest / smallest", "noise", "verdict"};
 }
 
+// Those of more than one pass.
+const std::string wholes[] = {"effect", scatterQuantity, "frame"};
+
 bool isWhole(const std::string& quantity) {
-    return quantity == "effect" || quantity == "frame";
+    return std::find(std::begin(wholes), std::end(wholes), quantity) != std::end(wholes);
 }
 
 } // namespace
 
 std::string slopeTable(const Results& results, const std::string& series) {
     Table table(slopeHeader(), 3);
-    for (const char* quantity : {"effect", "frame"}) {
+    for (const std::string& quantity : wholes) {
         for (const Fit* fit : fitsOf(results, series, quantity)) {
             addSlope(table, *fit);
         }

@@ -128,7 +128,7 @@ struct Fit {
     std::uint32_t height = 0;
     std::string variable;
     std::string unit;
-    std::string quantity; ///< whose time: "effect", "frame" or a pass's name
+    std::string quantity; ///< whose time: "effect", "frame", "scatter" (its passes) or a pass's name
     Line line;            ///< µs per unit of the variable
     double spread = 1;    ///< largest time of the series / smallest
     double noise = 0;     ///< largest of the series

@@ -69,27 +69,29 @@ void addPatch(scene::Scene& scene, const Patch& patch, std::uint32_t triangles, 
     }
 }
 
-void addPatches(scene::Scene& scene, const SlabSettings& settings) {
-    const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(settings.materials)));
-    const std::uint32_t rows = (settings.materials + columns - 1) / columns;
-    const auto covered = static_cast<float>(settings.coverage);
+void addMaterials(scene::Scene& scene, std::uint32_t count) {
     const Material skin = *findPreset("skin");
-    for (std::uint32_t i = 0; i < settings.materials; ++i) {
-        // The last row's patches are as wide as they have to be to fill it.
-        const std::uint32_t row = i / columns;
-        const std::uint32_t inRow = std::min(columns, settings.materials - row * columns);
-        const std::uint32_t column = i % columns;
-        const Patch patch{covered * float(column) / float(inRow), covered * float(column + 1) / float(inRow),
-                          float(row) / float(rows), float(row + 1) / float(rows)};
+    for (std::uint32_t i = 0; i < count; ++i) {
         Material material = skin;
         material.name = skin.name + ' ' + std::to_string(i);
-        material.scale = 1 + 0.5 * i / settings.materials;
+        material.scale = 1 + 0.5 * i / count;
         scene::Surface surface;
-        surface.material = static_cast<std::uint32_t>(scene.materials.size());
+        surface.material = i;
         scene.materials.push_back(material);
-        addPatch(scene, patch, settings.triangles / settings.materials,
-                 static_cast<std::uint32_t>(scene.surfaces.size()));
         scene.surfaces.push_back(surface);
+    }
+}
+
+void addPatches(scene::Scene& scene, const SlabSettings& settings) {
+    const auto covered = static_cast<float>(settings.coverage);
+    const std::uint32_t count = settings.columns * settings.rows;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t column = i % settings.columns;
+        const std::uint32_t row = i / settings.columns;
+        const Patch patch{covered * float(column) / float(settings.columns),
+                          covered * float(column + 1) / float(settings.columns), float(row) / float(settings.rows),
+                          float(row + 1) / float(settings.rows)};
+        addPatch(scene, patch, settings.triangles / count, i % settings.materials);
     }
     if (settings.coverage < 1) {
         addPatch(scene, {covered, 1, 0, 1}, 16, static_cast<std::uint32_t>(scene.surfaces.size()));
@@ -117,6 +119,7 @@ scene::Light makeLight(std::uint32_t index, std::uint32_t count) {
 std::shared_ptr<const View> makeSlab(const SlabSettings& settings) {
     auto scene = std::make_shared<scene::Scene>();
     scene->name = "slab";
+    addMaterials(*scene, settings.materials);
     addPatches(*scene, settings);
     for (std::uint32_t i = 0; i < settings.lights; ++i) {
         scene->lights.push_back(makeLight(i, settings.lights));

@@ -18,6 +18,7 @@ struct Values {
     std::vector<Size> sizes; ///< of the resolution series
     Size size;               ///< of all others
     std::vector<double> coverages, footprints;
+    std::uint32_t columns, rows; // of patches in the series of materials, so that borders between these stay the same
     std::vector<std::uint32_t> materials, layers, lights, triangles;
     std::uint32_t shadowMapSize;
 };
@@ -26,6 +27,8 @@ const Values fullValues{.sizes = {{1280, 720}, {1920, 1080}, {2560, 1440}, {3840
                         .size = {1920, 1080},
                         .coverages = {0.05, 0.1, 0.25, 0.5, 0.75, 1},
                         .footprints = {1, 2, 4, 8, 16, 32, 64, 128},
+                        .columns = 47,
+                        .rows = 26,
                         .materials = {1, 2, 4, 10, 32, 100, 320, 1000},
                         .layers = {1, 2, 4, 6, 10, 16, 24, 32},
                         .lights = {1, 2, 4, 6, 8, 12, 16},
@@ -36,6 +39,8 @@ const Values quickValues{.sizes = {{160, 90}, {320, 180}, {480, 270}},
                          .size = {320, 180},
                          .coverages = {0.05, 0.5, 1},
                          .footprints = {1, 8, 64},
+                         .columns = 9,
+                         .rows = 8,
                          .materials = {1, 8, 64},
                          .layers = {1, 6, 32},
                          .lights = {1, 2, 4},
@@ -104,7 +109,7 @@ private:
     void addMaterials() {
         Series& series = plan_.series.emplace_back(Series{"materials", "materials", "", {}});
         for (const std::uint32_t count : values_.materials) {
-            const auto view = makeSlab({.materials = count});
+            const auto view = makeSlab({.columns = values_.columns, .rows = values_.rows, .materials = count});
             add(series, view, values_.size, view->scene->materials, count);
         }
     }

@@ -57,6 +57,18 @@ TEST(Fits, FindTheSlopesThatWerePutIn) {
     EXPECT_EQ(fitsOf(results, "experiment 2", "G-buffer").size(), 6u);
 }
 
+// In the sample the effect is scatter alone, in two passes.
+TEST(Fits, HaveScatterAsTheSumOfItsPasses) {
+    const Results results = thesisResults();
+    const std::vector<const Fit*> effect = fitsOf(results, "experiment 2", "effect");
+    const std::vector<const Fit*> scatter = fitsOf(results, "experiment 2", scatterQuantity);
+    ASSERT_EQ(scatter.size(), effect.size());
+    for (std::size_t i = 0; i < scatter.size(); ++i) {
+        EXPECT_NEAR(scatter[i]->line.slope, effect[i]->line.slope, 1e-6) << scatter[i]->technique;
+    }
+    EXPECT_TRUE(fitsOf(results, "experiment 2", "ambient occlusion").empty());
+}
+
 TEST(Fits, RunOverAllSizesWhereTheResolutionVaries) {
     std::vector<Measurement> measurements;
     for (const std::uint32_t height : {720u, 1080u, 2160u}) {
