@@ -79,7 +79,7 @@ std::string formatMarkdown(const Results& results) {
                 " of the frame timed as a whole.\n\n";
     }
     return text + conclude(results) + "\n\n" + slopes(results, "effect", "the effect's time") +
-           slopes(results, scatterQuantity, "scatter's") + errors(results);
+           slopes(results, scatterQuantity, "scatter's own time") + errors(results);
 }
 
 } // namespace nacre::bench
