@@ -36,12 +36,15 @@ struct Subject {
     double coverage = 1; // planes: share of the pixels that scatter, a rectangle in the middle
     int layers = 6;
     int materials = 4;
-    std::uint32_t block = 8; // px, planes: side of the blocks that each are of the next material
+    // px, planes: side of the blocks that each are of the next material. Where it is odd, half of their borders fall
+    // into 2x2 px.
+    std::uint32_t block = 8;
     std::string label() const {
-        char text[128];
+        char text[160];
         std::snprintf(text, sizeof(text), "%s %ux%u cover %.0f%% footprint %.0f px, %d layers, %d materials",
                       sceneKindName(kind), extent.width, extent.height, 100 * coverage, footprint, layers, materials);
-        return text;
+        const bool inBlocks = kind == SceneKind::Plane && materials > 1;
+        return text + (inBlocks ? " in blocks of " + std::to_string(block) + " px" : std::string());
     }
 };
 
@@ -231,6 +234,7 @@ void measureKinds(Gpu& gpu, std::span<const SceneKind> kinds, const TimingOption
 // One of each: a minute's answer to a change of shaders.
 void runScenes(Gpu& gpu, const TimingOptions& options, std::vector<Row>& rows) {
     const Subject planes[] = {{.extent = options.extent},
+                              {.extent = options.extent, .block = 45},
                               {.extent = options.extent, .layers = 8, .materials = 1},
                               {.extent = options.extent, .footprint = 60, .coverage = 0.25},
                               {.extent = options.extent, .footprint = 60, .coverage = 0}};
