@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace nacre::bench {
 namespace {
@@ -58,9 +59,9 @@ std::vector<std::string> slopeHeader() {
 }
 
 // Those of more than one pass.
-const std::string wholes[] = {"effect", scatterQuantity, "frame"};
+constexpr std::string_view wholes[] = {"effect", scatterQuantity, "frame"};
 
-bool isWhole(const std::string& quantity) {
+bool isWhole(std::string_view quantity) {
     return std::find(std::begin(wholes), std::end(wholes), quantity) != std::end(wholes);
 }
 
@@ -68,7 +69,7 @@ bool isWhole(const std::string& quantity) {
 
 std::string slopeTable(const Results& results, const std::string& series) {
     Table table(slopeHeader(), 3);
-    for (const std::string& quantity : wholes) {
+    for (const std::string_view quantity : wholes) {
         for (const Fit* fit : fitsOf(results, series, quantity)) {
             addSlope(table, *fit);
         }

@@ -40,7 +40,7 @@ struct Subject {
     // into 2x2 px.
     std::uint32_t block = 8;
     std::string label() const {
-        char text[160];
+        char text[128];
         std::snprintf(text, sizeof(text), "%s %ux%u cover %.0f%% footprint %.0f px, %d layers, %d materials",
                       sceneKindName(kind), extent.width, extent.height, 100 * coverage, footprint, layers, materials);
         const bool inBlocks = kind == SceneKind::Plane && materials > 1;
