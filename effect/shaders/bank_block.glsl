@@ -72,14 +72,11 @@ ivec2 ringPlace(int thread) {
     return thread < 2 * tileSize ? ivec2(along, beyond) : ivec2(beyond, along);
 }
 
-uint fetchRingId(ivec2 tileFirst, ivec2 place) {
-    uint id = texelFetch(materialIdImage, imagePixel(tileFirst + place), 0).r;
-    return isInExtent(tileFirst + place) ? id : 0u;
-}
-
-RingPixel fetchRing(ivec2 tileFirst, ivec2 place, uint id) {
+RingPixel fetchRing(ivec2 tileFirst, ivec2 place) {
     ivec2 pixel = imagePixel(tileFirst + place);
-    return RingPixel(pixel, depthPlace(place), materialOfId(id), texelFetch(depthImage, pixel, 0).r);
+    uint id = texelFetch(materialIdImage, pixel, 0).r;
+    float depth = texelFetch(depthImage, pixel, 0).r;
+    return RingPixel(pixel, depthPlace(place), isInExtent(tileFirst + place) ? materialOfId(id) : 0u, depth);
 }
 
 float receivingDepth(uint material, ivec2 pixel, float depth) {

@@ -238,9 +238,7 @@ void main() {
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
     ivec2 texel = quadOrder(thread, side);
     ivec2 first = tile * tileSize + 2 * texel;
-    ivec2 beside = ringPlace(thread);
     uvec4 ids = fetchIds(first);
-    uint ringId = fetchRingId(tile * tileSize, beside);
     if (thread == 0) {
         occupied = 0u;
         roughness = 0u;
@@ -265,9 +263,10 @@ void main() {
         clearTile(tile, thread);
         return;
     }
-    // Ids were fetched first, so that an empty tile ends sooner; all the rest before anything is asked, so that fetches overlap.
+    // Its ids were fetched first, so that an empty tile ends sooner; all the rest before anything is asked, so that fetches
+    // overlap.
+    RingPixel ring = fetchRing(tile * tileSize, ringPlace(thread));
     Block block = fetchBlock(first, ids);
-    RingPixel ring = fetchRing(tile * tileSize, beside, ringId);
     decodeBlock(block, first);
     int place = depthPlace(2 * texel);
     [[unroll]] for (int i = 0; i < 4; ++i) {
