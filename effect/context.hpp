@@ -51,6 +51,9 @@ struct IntermediateResource {
 /// One for every Intermediate.
 using IntermediateResources = std::array<IntermediateResource, intermediateCount>;
 
+/// A pass's pipelines by Variant; null where the pass lacks one of the constants.
+using PassPipelines = std::array<Owned<VkPipeline>, variantCount>;
+
 struct Context {
     Device device;
     NacreMessageCallback messageCallback = nullptr;
@@ -62,9 +65,7 @@ struct Context {
 
     Programs scatter;
     Programs transmit;
-    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> pipelines; ///< one a pass, then materialPasses
-    /// As pipelines, for separate materials or several shadow maps; null where the pass does not ask.
-    std::array<std::vector<Owned<VkPipeline>>, techniqueCount> askingPipelines;
+    std::array<std::vector<PassPipelines>, techniqueCount> pipelines; ///< of the passes, then of materialPasses
     std::vector<Owned<VkPipeline>> bakedThesis; ///< the thesis's materialPasses; empty = not baked
     std::uint32_t bakedThesisRadius = 0;
     NacreMemory givenMemory{};                ///< the caller's, for the intermediates

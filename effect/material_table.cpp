@@ -123,12 +123,14 @@ void MaterialTable::summarize() {
     std::uint32_t common = 0xffffffffu;
     summary_.havePreAndPost = false;
     summary_.haveSecondSurfaces = false;
+    summary_.havePartialStrength = false;
     for (std::uint32_t slot = 1; slot <= summary_.slotCount; ++slot) {
         MaterialParameters parameters;
         std::memcpy(&parameters, current_.data() + section.offset + section.stride * slot, sizeof(parameters));
         common &= parameters.exchangeGroups;
         summary_.havePreAndPost = summary_.havePreAndPost || parameters.preAndPost != 0;
         summary_.haveSecondSurfaces = summary_.haveSecondSurfaces || parameters.secondSurfaces != 0;
+        summary_.havePartialStrength = summary_.havePartialStrength || parameters.strength < 1;
     }
     summary_.haveSeparate = common == 0;
 }

@@ -41,10 +41,11 @@ public:
     std::uint32_t setCount() const { return summary_.slotCount; }
     /// What is known of a frame's materials together.
     struct Summary {
-        std::uint32_t slotCount = 0;     ///< how many are set: theirs are the slots 1 … slotCount
-        bool haveSeparate = false;       ///< some may not exchange light: no exchange group holds them all
-        bool havePreAndPost = false;     ///< some have NACRE_ALBEDO_PRE_AND_POST
-        bool haveSecondSurfaces = false; ///< some have NacreMaterial::secondSurfaces
+        std::uint32_t slotCount = 0;      ///< how many are set: theirs are the slots 1 … slotCount
+        bool haveSeparate = false;        ///< some may not exchange light: no exchange group holds them all
+        bool havePreAndPost = false;      ///< some have NACRE_ALBEDO_PRE_AND_POST
+        bool haveSecondSurfaces = false;  ///< some have NacreMaterial::secondSurfaces
+        bool havePartialStrength = false; ///< some have NacreMaterial::strength below 1
     };
     const Summary& summary(std::uint32_t frame) const { return frames_[frame].summary; }
     /// Of the materials set so far.

@@ -92,6 +92,7 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.perMaterial = perMaterial;
     result.asksMaterials = pass.asksMaterials;
     result.asksShadowMaps = pass.asksShadowMaps;
+    result.asksAlbedoOrStrength = pass.asksAlbedoOrStrength;
     if (pass.indirect == Intermediate::Count) {
         result.groups = pass.grid(area);
     } else {

@@ -61,12 +61,28 @@ struct Pass {
     /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this buffer; Count = not indirect.
     Intermediate indirect = Intermediate::Count;
     VkDeviceSize indirectOffset = 0;
-    /// Whether there is a second pipeline, with the constant separateMaterials true, for frames where some materials do
-    /// not exchange light with some others: asking costs nothing where no one does.
+    /// Whether it has the constant separateMaterials, true for frames where some materials do not exchange light with
+    /// some others: asking costs nothing where no one does.
     bool asksMaterials = false;
     /// The same with the constant severalShadowMaps, for calls with more than one.
     bool asksShadowMaps = false;
+    /// The same with the constant albedoOrStrength, for calls with such an image or a material of strength below 1.
+    bool asksAlbedoOrStrength = false;
 };
+
+/// Which of a pass's pipelines: a bit for every specialization constant that is true, by its constant_id.
+using Variant = std::uint32_t;
+inline constexpr Variant separateMaterials = 1u << 0;
+inline constexpr Variant severalShadowMaps = 1u << 0; // transmit's, where the former is scatter's
+inline constexpr Variant albedoOrStrength = 1u << 1;
+inline constexpr std::uint32_t variantConstants = 2;
+inline constexpr std::size_t variantCount = std::size_t{1} << variantConstants;
+
+/// The constants that a pass has.
+constexpr Variant variantsOf(const Pass& pass) {
+    return (pass.asksMaterials ? separateMaterials : 0) | (pass.asksShadowMaps ? severalShadowMaps : 0) |
+           (pass.asksAlbedoOrStrength ? albedoOrStrength : 0);
+}
 
 /// Sizes of the bank's buffers (scatter_bank.cpp).
 VkDeviceSize bankRawBytes(VkExtent2D maxExtent);

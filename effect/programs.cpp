@@ -56,10 +56,31 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
     return {device, pipeline, device.vk.DestroyPipeline};
 }
 
-// Of the pipelines that ask: separateMaterials or severalShadowMaps.
-constexpr VkBool32 asks = VK_TRUE;
-constexpr VkSpecializationMapEntry asksEntry{0, 0, sizeof(asks)};
-constexpr VkSpecializationInfo asksConstants{1, &asksEntry, sizeof(asks), &asks};
+namespace {
+
+PassPipelines createVariants(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache) {
+    PassPipelines pipelines;
+    for (Variant variant = 0; variant < variantCount; ++variant) {
+        if ((variant & ~variantsOf(pass)) != 0) {
+            continue;
+        }
+        std::array<VkBool32, variantConstants> values;
+        std::array<VkSpecializationMapEntry, variantConstants> entries;
+        std::uint32_t count = 0;
+        for (std::uint32_t constant = 0; constant < variantConstants; ++constant) {
+            if (variantsOf(pass) >> constant & 1u) {
+                values[count] = variant >> constant & 1u;
+                entries[count] = {constant, count * static_cast<std::uint32_t>(sizeof(VkBool32)), sizeof(VkBool32)};
+                ++count;
+            }
+        }
+        const VkSpecializationInfo constants{count, entries.data(), count * sizeof(VkBool32), values.data()};
+        pipelines[variant] = createPipeline(device, layout, pass, cache, &constants);
+    }
+    return pipelines;
+}
+
+} // namespace
 
 void createPrograms(Context& context, VkPipelineCache cache) {
     createLayout(context, context.scatter, CallKind::Scatter);
@@ -73,11 +94,7 @@ void createPrograms(Context& context, VkPipelineCache cache) {
         for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
             for (Pass pass : part) {
                 pass.spirv = context.shaderFloat16 && !pass.halfSpirv.empty() ? pass.halfSpirv : pass.spirv;
-                context.pipelines[i].push_back(createPipeline(context.device, layout, pass, cache));
-                context.askingPipelines[i].push_back(
-                    pass.asksMaterials || pass.asksShadowMaps
-                        ? createPipeline(context.device, layout, pass, cache, &asksConstants)
-                        : Owned<VkPipeline>());
+                context.pipelines[i].push_back(createVariants(context.device, layout, pass, cache));
             }
         }
     }

@@ -184,21 +184,19 @@ void recordPasses(const PassRecording& recording) {
         arguments |= pass.writes;
     };
     const std::span pipelines(recording.context.pipelines[recording.technique]);
-    const std::span askingPipelines(recording.context.askingPipelines[recording.technique]);
     const auto passCount = static_cast<std::uint32_t>(technique.passes.size());
     for (std::uint32_t i = 0; i < passCount; ++i) {
-        const bool asks = recording.asks && askingPipelines[i].get() != VK_NULL_HANDLE;
-        record(technique.passes[i], asks ? askingPipelines[i] : pipelines[i]);
+        const Pass& pass = technique.passes[i];
+        record(pass, pipelines[i][recording.variant & variantsOf(pass)]);
         timestamp(recording, i + 1);
     }
     if (!technique.materialPasses.empty()) {
-        const std::span materialPipelines =
-            recording.baked ? std::span(recording.context.bakedThesis) : pipelines.subspan(passCount);
         for (std::uint32_t slot = 1; slot <= recording.materialCount; ++slot) {
             vk.CmdPushConstants(recording.commandBuffer, recording.programs.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT,
                                 0, sizeof(slot), &slot);
             for (std::size_t i = 0; i < technique.materialPasses.size(); ++i) {
-                record(technique.materialPasses[i], materialPipelines[i]);
+                record(technique.materialPasses[i],
+                       recording.baked ? recording.context.bakedThesis[i] : pipelines[passCount + i][0]);
             }
         }
         timestamp(recording, passCount + 1);

@@ -45,9 +45,8 @@ struct PassRecording {
     NacreTimestamps timestamps;
     IntermediateSet intermediates; ///< what this call touches; with none, it does not wait for what was recorded before
     std::uint32_t materialCount = 0; ///< the technique's materialPasses run for the slots 1 … materialCount
-    bool asks = false;               ///< Context::askingPipelines: some materials do not exchange light with some
-                                     ///< others, or there are several shadow maps
-    bool baked = false;              ///< those with the kernel of nacreBakeThesisKernel
+    Variant variant = 0;             ///< what this call asks of the passes that have the constant
+    bool baked = false;              ///< materialPasses have the kernel of nacreBakeThesisKernel
 };
 
 /// Records the technique's passes with what lies between them: barriers, labels, timestamps.

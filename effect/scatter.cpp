@@ -54,6 +54,13 @@ ImageSet checkImages(const NacreScatterInfo& info, const VkRect2D& area) {
     return given;
 }
 
+/// What the call asks of its passes.
+Variant variantOf(ImageSet given, const MaterialTable::Summary& materials) {
+    constexpr ImageSet asking = 1u << NACRE_IMAGE_ALBEDO | 1u << NACRE_IMAGE_STRENGTH;
+    return (materials.haveSeparate ? separateMaterials : 0) |
+           ((given & asking) != 0 || materials.havePartialStrength ? albedoOrStrength : 0);
+}
+
 void checkBakedKernel(const Context& context, const NacreScatterInfo& info) {
     if (info.technique != NACRE_TECHNIQUE_THESIS || !info.thesisBakedKernel) {
         return;
@@ -96,7 +103,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
-                  techniques[technique]->uses(), materials.slotCount, materials.haveSeparate,
+                  techniques[technique]->uses(), materials.slotCount, variantOf(given, materials),
                   info.thesisBakedKernel != VK_FALSE});
 }
 

@@ -161,7 +161,8 @@ constexpr Pass edgePass{.name = "nacre bank combine edge",
                         .reads = raw | blurred | pixelMaterials | areas | tiles,
                         .indirect = Intermediate::BankTiles,
                         .indirectOffset = sizeof(BankDispatch),
-                        .asksMaterials = true};
+                        .asksMaterials = true,
+                        .asksAlbedoOrStrength = true};
 constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .file = "bank_combine_smooth",
                           .spirv = bank_combine_smooth_spv,
@@ -169,7 +170,8 @@ constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .halfSpirv = bank_combine_smooth_half_spv,
                           .reads = raw | blurred | pixelMaterials | tiles,
                           .indirect = Intermediate::BankTiles,
-                          .indirectOffset = 0};
+                          .indirectOffset = 0,
+                          .asksAlbedoOrStrength = true};
 constexpr Pass passes[] = {reducePass, blurPass, edgePass, smoothPass};
 
 // The same pass with second surfaces.

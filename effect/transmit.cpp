@@ -123,7 +123,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, record.set, area.extent, info.timestamps,
-                  maps.empty() ? transmitTechnique.uses() : 0, 0, maps.size() > 1});
+                  maps.empty() ? transmitTechnique.uses() : 0, 0, maps.size() > 1 ? severalShadowMaps : 0});
 }
 
 } // namespace

@@ -125,7 +125,7 @@ void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum s
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
         leaving[i] = sum.light[i] / max(sum.mass, vec3(1e-20));
     }
-    if (strength < 1.0 || hasFlag(flagStrength)) {
+    if (albedoOrStrength && (strength < 1.0 || hasFlag(flagStrength))) {
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {
             if (members[i]) {
                 ivec2 pixel = first + ivec2(i & 1, i >> 1);

@@ -1,6 +1,8 @@
 // What the two pipelines of pass C of `bank` know of a region, in shared memory: its pixels, and the texels that they
 // read. docs/scatter.md. Needs the constant isEdge: whether depths of pixels and surfaces of texels are loaded, too.
 #define BANK_ACCESS readonly
+layout(constant_id = 1) const bool albedoOrStrength = true; // else neither image is given, and every material's strength is 1
+#define POSSIBLE_FLAGS (albedoOrStrength ? ~0u : ~(flagAlbedo | flagAlbedoBefore | flagStrength))
 #include "bank.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;

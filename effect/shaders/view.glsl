@@ -13,8 +13,12 @@ bool isInArea(ivec2 pixel) {
     return all(greaterThanEqual(pixel, view.areaOffset)) && all(lessThan(pixel, view.areaOffset + view.areaExtent));
 }
 
+#ifndef POSSIBLE_FLAGS
+#define POSSIBLE_FLAGS ~0u // those that calls of this pipeline may have
+#endif
+
 bool hasFlag(uint flag) {
-    return (view.flags & flag) != 0u;
+    return (view.flags & POSSIBLE_FLAGS & flag) != 0u;
 }
 
 // x and y of a pixel's ray: position = (ray·z + origin, z).

@@ -8,8 +8,8 @@
  * HOW
  *  set up    nacreGetBindings lists descriptor set 0 of a technique, nacreGetPasses its compute passes: SPIR-V, or the name
  *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial, a
- *            push constant of 4 bytes at offset 0. A pass with asksMaterials or asksShadowMaps
- *            takes two pipelines.
+ *            push constant of 4 bytes at offset 0. A pass with asksMaterials, asksShadowMaps or asksAlbedoOrStrength
+ *            takes two pipelines; with two of these, four.
  *  materials The buffer "materials" starts with 65536 uint32_t: the slot of every material id, 0 where none is set. Slots
  *            count from 1. nacreFillMaterial fills a slot's element there, nacreFillTable its element of "tables".
  *            A buffer of n materials is head + (n + 1) * stride bytes. Change a material only when no frame reads it.
@@ -81,6 +81,9 @@ typedef struct NacrePass {
     VkBool32 asksShadowMaps;     /**< the same for calls with more than one shadow map: in the pipeline without, all lights
                                       with a shadow map have the first. It takes 5 to 18 us less where transmit takes 44
                                       to 135 (1920x1080, NVIDIA H100) */
+    VkBool32 asksAlbedoOrStrength; /**< has the specialization constant 1, a VkBool32, by default VK_TRUE: VK_FALSE in the
+                                      pipeline for calls with neither an albedo nor a strength image, while every
+                                      material that is set has strength 1 */
     VkExtent3D groups;           /**< workgroups to dispatch; 0 where indirectBinding is not */
     uint32_t indirectBinding;    /**< the intermediate that holds the VkDispatchIndirectCommand; 0 = none does */
     VkDeviceSize indirectOffset; /**< bytes, where in it */

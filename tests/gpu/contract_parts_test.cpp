@@ -64,8 +64,9 @@ TEST_F(PartsTest, ScatterIsThatOfAContext) {
     for (const NacreTechnique technique : scatterTechniques) {
         // Larger than the area, so that sizes and strides follow maxExtent.
         PartsEngine engine(gpu, technique, {extent.width + 40, extent.height + 9}, 3);
-        for (const bool everything : {false, true}) {
-            setSeparate(everything);
+        for (const int call : {0, 1, 2, 3}) {
+            const bool everything = call / 2 != 0;
+            setSeparate(call % 2 != 0);
             ASSERT_EQ(nacreSetMaterials(effect.context, 1, 2, materials_), NACRE_SUCCESS);
             engine.setMaterials(materials_);
             const ScatterInput input = scene(everything);
@@ -82,7 +83,7 @@ TEST_F(PartsTest, ScatterIsThatOfAContext) {
                     different += inside && image[input.index(x, y)] != expected[input.index(x, y)] ? 1 : 0;
                 }
             }
-            EXPECT_EQ(different, 0u) << nacreTechniqueString(technique) << (everything ? ", with everything" : "");
+            EXPECT_EQ(different, 0u) << nacreTechniqueString(technique) << ", call " << call;
         }
     }
 }

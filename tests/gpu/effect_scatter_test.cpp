@@ -331,14 +331,28 @@ TEST_P(ScatterTest, AlbedoAndStrengthAreApplied) {
         const std::vector<Float4> expected = use == AlbedoUse::Post ? colored(plain, albedo, false) : afterBoth;
         EXPECT_LT(largestDifference(scatter(input, material), expected), 1e-3f);
     }
-    input.albedo.clear();
-    input.strength.assign(input.depth.size(), 0.5f);
-    Material half = skin();
-    half.strength = 0.5;
-    const std::vector<Float4> result = scatter(input, half);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        ASSERT_NEAR(result[i][0], 0.75f * input.irradiance[i][0] + 0.25f * plain[i][0], 1e-3f);
-    }
+}
+
+// By a material, by an image, by both, and by none again.
+TEST_P(ScatterTest, StrengthIsTheMaterialsTimesTheImages) {
+    ScatterInput input = blocks();
+    const std::vector<Material> full(2, skin());
+    const std::vector<Float4> plain = scatter(input, full);
+    const auto expectShare = [&](double material, float image, float share) {
+        std::vector<Material> materials = full;
+        materials[0].strength = material; // the other's stays 1, and no pixel has it
+        input.strength.assign(image < 1 ? input.depth.size() : 0, image);
+        const std::vector<Float4> result = scatter(input, materials);
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            const float expected = (1 - share) * input.irradiance[i][0] + share * plain[i][0];
+            ASSERT_NEAR(result[i][0], expected, 1e-3f) << material << " of the material, " << image << " of the image";
+        }
+    };
+    expectShare(0.5, 1, 0.5f);
+    expectShare(1, 0.5f, 0.5f);
+    expectShare(0.5, 0.5f, 0.25f);
+    input.strength.clear();
+    EXPECT_EQ(scatter(input, full), plain);
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, ScatterTest, testing::ValuesIn(techniques), [](const auto& technique) {

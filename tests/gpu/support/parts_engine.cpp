@@ -95,21 +95,24 @@ void PartsEngine::createPipelines() {
     check(nacreGetPasses(technique_, maxExtent_, &count, nullptr));
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, maxExtent_, &count, passes.data()));
-    for (const VkBool32 asks : {VK_FALSE, VK_TRUE}) {
+    for (std::uint32_t i = 0; i < std::size(pipelines_); ++i) {
+        const VkBool32 values[] = {i & 1u, i >> 1};
+        const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}};
+        const VkSpecializationInfo constants{2, entries, sizeof(values), values};
         for (const NacrePass& pass : passes) {
             VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
             moduleInfo.codeSize = pass.spirvSize;
             moduleInfo.pCode = pass.spirv;
-            const VkSpecializationMapEntry entry{0, 0, sizeof(asks)};
-            const VkSpecializationInfo constants{1, &entry, sizeof(asks), &asks};
             VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
             info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
             info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
             info.stage.pName = "main";
-            info.stage.pSpecializationInfo = pass.asksMaterials || pass.asksShadowMaps ? &constants : nullptr;
+            // An entry for a constant that a pass lacks changes nothing.
+            info.stage.pSpecializationInfo =
+                pass.asksMaterials || pass.asksShadowMaps || pass.asksAlbedoOrStrength ? &constants : nullptr;
             info.layout = layout_;
             check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &info.stage.module));
-            VkPipeline& pipeline = pipelines_[asks].emplace_back();
+            VkPipeline& pipeline = pipelines_[i].emplace_back();
             check(vkCreateComputePipelines(gpu_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
             vkDestroyShaderModule(gpu_.device, info.stage.module, nullptr);
         }
@@ -171,6 +174,7 @@ void PartsEngine::setMaterials(std::span<const NacreMaterial> materials) {
     const Buffer& tables = buffers_.at("tables");
     auto* slots = reinterpret_cast<std::uint32_t*>(blocks.mapped);
     std::uint32_t common = ~0u;
+    havePartialStrength_ = false;
     // [snippet: parts-materials]
     for (std::uint32_t i = 0; i < materials.size(); ++i) {
         const std::uint32_t slot = i + 1;
@@ -178,10 +182,11 @@ void PartsEngine::setMaterials(std::span<const NacreMaterial> materials) {
         check(nacreFillMaterial(&materials[i], &messages, blocks.binding.stride, blocks.element(slot)));
         check(nacreFillTable(technique_, &materials[i], &messages, tables.binding.stride, tables.element(slot)));
         common &= materials[i].exchangeGroups;
+        havePartialStrength_ = havePartialStrength_ || materials[i].strength < 1;
     }
     // [end]
     slotCount_ = static_cast<std::uint32_t>(materials.size());
-    asks_ = common == 0;
+    areSeparate_ = common == 0;
 }
 
 void PartsEngine::bind(const NacreBinding& binding, std::span<const NacreImage> images, const NacreImage& fallback) {
@@ -226,7 +231,9 @@ void PartsEngine::scatter(VkCommandBuffer commandBuffer, const NacreScatterInfo&
     check(nacreFillScatterParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
     // [end]
     const VkExtent2D area = info.view.renderArea.extent;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent);
+    const bool albedoOrStrength = info.albedo.view != VK_NULL_HANDLE || info.strength.view != VK_NULL_HANDLE;
+    recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent, areSeparate_,
+                 albedoOrStrength || havePartialStrength_);
 }
 
 void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInfo& info) {
@@ -252,14 +259,13 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
     const Buffer& parameters = buffers_.at("parameters");
     check(nacreFillTransmitParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
     const Buffer& lights = buffers_.at("lights");
-    asks_ = info.shadowMapCount > 1;
     check(nacreFillLights(&info, &messages, info.lightCount * lights.binding.stride, lights.mapped));
     const VkExtent2D area = info.view.renderArea.extent;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent);
+    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, info.shadowMapCount > 1, false);
 }
 
-void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area) {
-    const std::vector<VkPipeline>& pipelines = pipelines_[asks_];
+void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, bool asks, bool albedoOrStrength) {
+    const std::vector<VkPipeline>& pipelines = pipelines_[(asks ? 1 : 0) + (albedoOrStrength ? 2 : 0)];
     std::uint32_t count = static_cast<std::uint32_t>(pipelines.size());
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, area, &count, passes.data()));

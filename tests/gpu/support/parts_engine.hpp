@@ -36,17 +36,18 @@ private:
     void createPipelines();
     void createSet();
     void bind(const NacreBinding& binding, std::span<const NacreImage> images, const NacreImage& fallback);
-    void recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area);
+    void recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, bool asks, bool albedoOrStrength);
 
     Gpu& gpu_;
     NacreTechnique technique_;
     VkExtent2D maxExtent_;
-    std::uint32_t slotCount_ = 0; ///< materials that are set
-    bool asks_ = false;           ///< no exchange group holds them all, or there are several shadow maps
+    std::uint32_t slotCount_ = 0;      ///< materials that are set
+    bool areSeparate_ = false;         ///< no exchange group holds them all
+    bool havePartialStrength_ = false; ///< some have a strength below 1
     std::vector<NacreBinding> bindings_;
     std::map<std::string, Buffer> buffers_;
     std::map<std::uint32_t, GpuImage> images_; ///< intermediates by binding
-    std::vector<VkPipeline> pipelines_[2];     ///< by asks_
+    std::vector<VkPipeline> pipelines_[4];     ///< by the constants' values, a bit each
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -25,11 +26,17 @@ struct Options {
     std::string csv;
 };
 
+// A specialization constant.
+struct Constant {
+    std::uint32_t id;
+    VkBool32 value;
+};
+
 // A pass in one of its forms.
 struct Program {
     std::string technique, pass, form;
     std::span<const std::uint32_t> spirv;
-    VkBool32 asks = VK_FALSE;
+    std::optional<Constant> constant = {}; // that is not as by default
 };
 
 vk::raii::PhysicalDevice findDevice(const vk::raii::Instance& instance) {
@@ -74,6 +81,21 @@ vk::raii::DescriptorSetLayout makeSetLayout(const vk::raii::Device& device, Nacr
     return {device, vk::DescriptorSetLayoutCreateInfo({}, layout)};
 }
 
+void addForms(std::vector<Program>& programs, const std::string& technique, const NacrePass& pass,
+              std::span<const std::uint32_t> spirv, const std::string& precision) {
+    const std::string prefix = precision.empty() ? "" : precision + ", ";
+    programs.push_back({technique, pass.name, precision, spirv});
+    if (pass.asksMaterials) {
+        programs.push_back({technique, pass.name, prefix + "separate materials", spirv, Constant{0, VK_TRUE}});
+    }
+    if (pass.asksShadowMaps) {
+        programs.push_back({technique, pass.name, prefix + "several shadow maps", spirv, Constant{0, VK_TRUE}});
+    }
+    if (pass.asksAlbedoOrStrength) {
+        programs.push_back({technique, pass.name, prefix + "no albedo and strength 1", spirv, Constant{1, VK_FALSE}});
+    }
+}
+
 std::vector<Program> programsOf(NacreTechnique technique, const std::string& name, bool halfFloats) {
     std::uint32_t count = 0;
     nacreGetPasses(technique, extent, &count, nullptr);
@@ -81,17 +103,9 @@ std::vector<Program> programsOf(NacreTechnique technique, const std::string& nam
     nacreGetPasses(technique, extent, &count, passes.data());
     std::vector<Program> programs;
     for (const NacrePass& pass : passes) {
-        const std::span spirv(pass.spirv, pass.spirvSize / sizeof(std::uint32_t));
-        programs.push_back({name, pass.name, "", spirv});
-        if (pass.asksMaterials) {
-            programs.push_back({name, pass.name, "separate materials", spirv, VK_TRUE});
-        }
-        if (pass.asksShadowMaps) {
-            programs.push_back({name, pass.name, "several shadow maps", spirv, VK_TRUE});
-        }
+        addForms(programs, name, pass, {pass.spirv, pass.spirvSize / sizeof(std::uint32_t)}, "");
         if (pass.halfSpirv != nullptr && halfFloats) {
-            programs.push_back(
-                {name, pass.name, "half floats", {pass.halfSpirv, pass.halfSpirvSize / sizeof(std::uint32_t)}});
+            addForms(programs, name, pass, {pass.halfSpirv, pass.halfSpirvSize / sizeof(std::uint32_t)}, "half floats");
         }
     }
     return programs;
@@ -100,10 +114,11 @@ std::vector<Program> programsOf(NacreTechnique technique, const std::string& nam
 vk::raii::Pipeline makePipeline(const vk::raii::Device& device, const vk::raii::PipelineLayout& layout,
                                 const Program& program) {
     const vk::raii::ShaderModule module(device, vk::ShaderModuleCreateInfo({}, program.spirv));
-    const vk::SpecializationMapEntry entry(0, 0, sizeof(VkBool32));
-    const vk::SpecializationInfo constants(1, &entry, sizeof(VkBool32), &program.asks);
+    const Constant constant = program.constant.value_or(Constant{});
+    const vk::SpecializationMapEntry entry(constant.id, 0, sizeof(VkBool32));
+    const vk::SpecializationInfo constants(1, &entry, sizeof(VkBool32), &constant.value);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main",
-                                                  program.asks ? &constants : nullptr);
+                                                  program.constant ? &constants : nullptr);
     return {device, nullptr,
             vk::ComputePipelineCreateInfo(vk::PipelineCreateFlagBits::eCaptureStatisticsKHR, stage, *layout)};
 }
