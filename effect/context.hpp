@@ -100,9 +100,9 @@ template <typename Body> NacreResult guard(NacreMessageCallback callback, void* 
 
 /// Creates layouts and pipelines (programs.cpp).
 void createPrograms(Context& context, VkPipelineCache cache);
-/// Compiles a pass, with its specialization constants if it has any (programs.cpp).
+/// Compiles a pass; constants: null = those of the SPIR-V (programs.cpp).
 Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache,
-                                 const VkSpecializationInfo* constants = nullptr);
+                                 const VkSpecializationInfo* constants);
 /// The intermediates of the enabled techniques for an extent, without memory
 /// (programs.cpp).
 IntermediateResources createIntermediates(const Context& context, VkExtent2D extent);

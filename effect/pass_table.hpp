@@ -75,8 +75,7 @@ using Variant = std::uint32_t;
 inline constexpr Variant separateMaterials = 1u << 0;
 inline constexpr Variant severalShadowMaps = 1u << 0; // transmit's, where the former is scatter's
 inline constexpr Variant albedoOrStrength = 1u << 1;
-inline constexpr std::uint32_t variantConstants = 2;
-inline constexpr std::size_t variantCount = std::size_t{1} << variantConstants;
+inline constexpr std::size_t variantCount = 4;
 
 /// The constants that a pass has.
 constexpr Variant variantsOf(const Pass& pass) {

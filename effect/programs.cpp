@@ -64,18 +64,11 @@ PassPipelines createVariants(const Device& device, VkPipelineLayout layout, cons
         if ((variant & ~variantsOf(pass)) != 0) {
             continue;
         }
-        std::array<VkBool32, variantConstants> values;
-        std::array<VkSpecializationMapEntry, variantConstants> entries;
-        std::uint32_t count = 0;
-        for (std::uint32_t constant = 0; constant < variantConstants; ++constant) {
-            if (variantsOf(pass) >> constant & 1u) {
-                values[count] = variant >> constant & 1u;
-                entries[count] = {constant, count * static_cast<std::uint32_t>(sizeof(VkBool32)), sizeof(VkBool32)};
-                ++count;
-            }
-        }
-        const VkSpecializationInfo constants{count, entries.data(), count * sizeof(VkBool32), values.data()};
-        pipelines[variant] = createPipeline(device, layout, pass, cache, &constants);
+        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under these ids.
+        const VkBool32 values[] = {variant & 1u, variant >> 1 & 1u};
+        const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}};
+        const VkSpecializationInfo constants{2, entries, sizeof(values), values};
+        pipelines[variant] = createPipeline(device, layout, pass, cache, variantsOf(pass) != 0 ? &constants : nullptr);
     }
     return pipelines;
 }

@@ -27,6 +27,11 @@ std::uint32_t bitOf(NacreImageSlot slot, const NacreImage& image) {
     return image.view != VK_NULL_HANDLE ? 1u << slot : 0u;
 }
 
+// The specialization constants that a pass asks with, a bit each.
+std::uint32_t constantsOf(const NacrePass& pass) {
+    return (pass.asksMaterials || pass.asksShadowMaps ? 1u : 0u) | (pass.asksAlbedoOrStrength ? 2u : 0u);
+}
+
 } // namespace
 
 PartsEngine::PartsEngine(Gpu& gpu, NacreTechnique technique, VkExtent2D maxExtent, std::uint32_t materialCount,
@@ -54,7 +59,7 @@ PartsEngine::~PartsEngine() {
         vkDestroyBuffer(gpu_.device, buffer.buffer, nullptr);
         vkFreeMemory(gpu_.device, buffer.memory, nullptr);
     }
-    for (const std::vector<VkPipeline>& pipelines : pipelines_) {
+    for (const std::array<VkPipeline, 4>& pipelines : pipelines_) {
         for (const VkPipeline pipeline : pipelines) {
             vkDestroyPipeline(gpu_.device, pipeline, nullptr);
         }
@@ -95,28 +100,37 @@ void PartsEngine::createPipelines() {
     check(nacreGetPasses(technique_, maxExtent_, &count, nullptr));
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, maxExtent_, &count, passes.data()));
-    for (std::uint32_t i = 0; i < std::size(pipelines_); ++i) {
-        const VkBool32 values[] = {i & 1u, i >> 1};
-        const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}};
-        const VkSpecializationInfo constants{2, entries, sizeof(values), values};
-        for (const NacrePass& pass : passes) {
-            VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-            moduleInfo.codeSize = pass.spirvSize;
-            moduleInfo.pCode = pass.spirv;
-            VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-            info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-            info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-            info.stage.pName = "main";
-            // An entry for a constant that a pass lacks changes nothing.
-            info.stage.pSpecializationInfo =
-                pass.asksMaterials || pass.asksShadowMaps || pass.asksAlbedoOrStrength ? &constants : nullptr;
-            info.layout = layout_;
-            check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &info.stage.module));
-            VkPipeline& pipeline = pipelines_[i].emplace_back();
-            check(vkCreateComputePipelines(gpu_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
-            vkDestroyShaderModule(gpu_.device, info.stage.module, nullptr);
+    for (const NacrePass& pass : passes) {
+        VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+        moduleInfo.codeSize = pass.spirvSize;
+        moduleInfo.pCode = pass.spirv;
+        VkShaderModule module = VK_NULL_HANDLE;
+        check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &module));
+        std::array<VkPipeline, 4>& pipelines = pipelines_.emplace_back();
+        for (std::uint32_t variant = 0; variant < pipelines.size(); ++variant) {
+            if ((variant & ~constantsOf(pass)) == 0) {
+                pipelines[variant] = createPipeline(module, constantsOf(pass), variant);
+            }
         }
+        vkDestroyShaderModule(gpu_.device, module, nullptr);
     }
+}
+
+VkPipeline PartsEngine::createPipeline(VkShaderModule module, std::uint32_t has, std::uint32_t variant) {
+    // An entry for a constant that a pass lacks changes nothing; a pass without either has others under these ids.
+    const VkBool32 values[] = {variant & 1u, variant >> 1};
+    const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}};
+    const VkSpecializationInfo constants{2, entries, sizeof(values), values};
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = has != 0 ? &constants : nullptr;
+    info.layout = layout_;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(vkCreateComputePipelines(gpu_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline));
+    return pipeline;
 }
 
 void PartsEngine::createBuffer(const NacreBinding& binding, VkDeviceSize size) {
@@ -231,9 +245,10 @@ void PartsEngine::scatter(VkCommandBuffer commandBuffer, const NacreScatterInfo&
     check(nacreFillScatterParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
     // [end]
     const VkExtent2D area = info.view.renderArea.extent;
-    const bool albedoOrStrength = info.albedo.view != VK_NULL_HANDLE || info.strength.view != VK_NULL_HANDLE;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent, areSeparate_,
-                 albedoOrStrength || havePartialStrength_);
+    const bool albedoOrStrength =
+        info.albedo.view != VK_NULL_HANDLE || info.strength.view != VK_NULL_HANDLE || havePartialStrength_;
+    recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent,
+                 (areSeparate_ ? 1u : 0u) | (albedoOrStrength ? 2u : 0u));
 }
 
 void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInfo& info) {
@@ -261,14 +276,17 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
     const Buffer& lights = buffers_.at("lights");
     check(nacreFillLights(&info, &messages, info.lightCount * lights.binding.stride, lights.mapped));
     const VkExtent2D area = info.view.renderArea.extent;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, info.shadowMapCount > 1, false);
+    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, info.shadowMapCount > 1 ? 1 : 0);
 }
 
-void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, bool asks, bool albedoOrStrength) {
-    const std::vector<VkPipeline>& pipelines = pipelines_[(asks ? 1 : 0) + (albedoOrStrength ? 2 : 0)];
-    std::uint32_t count = static_cast<std::uint32_t>(pipelines.size());
+void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t variant) {
+    std::uint32_t count = static_cast<std::uint32_t>(pipelines_.size());
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, area, &count, passes.data()));
+    std::vector<VkPipeline> pipelines;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        pipelines.push_back(pipelines_[i][variant & constantsOf(passes[i])]);
+    }
     vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
     const auto barrier = [&] {
         VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};

@@ -5,6 +5,7 @@
 #include "nacre/nacre_parts.h"
 #include "tests/gpu/support/gpu.hpp"
 
+#include <array>
 #include <map>
 
 namespace nacre::tests {
@@ -34,9 +35,10 @@ private:
     void createIntermediateImage(const NacreBinding& binding);
     void createLayouts();
     void createPipelines();
+    VkPipeline createPipeline(VkShaderModule module, std::uint32_t has, std::uint32_t variant);
     void createSet();
     void bind(const NacreBinding& binding, std::span<const NacreImage> images, const NacreImage& fallback);
-    void recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, bool asks, bool albedoOrStrength);
+    void recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t variant);
 
     Gpu& gpu_;
     NacreTechnique technique_;
@@ -46,8 +48,8 @@ private:
     bool havePartialStrength_ = false; ///< some have a strength below 1
     std::vector<NacreBinding> bindings_;
     std::map<std::string, Buffer> buffers_;
-    std::map<std::uint32_t, GpuImage> images_; ///< intermediates by binding
-    std::vector<VkPipeline> pipelines_[4];     ///< by the constants' values, a bit each
+    std::map<std::uint32_t, GpuImage> images_;         ///< intermediates by binding
+    std::vector<std::array<VkPipeline, 4>> pipelines_; ///< of the passes, by their constants' values, a bit each
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
