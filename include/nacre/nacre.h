@@ -191,7 +191,8 @@ typedef struct NacreContextInfo {
     VkDevice device;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr; /**< required; every entry point is reached through it */
     const VkAllocationCallbacks* allocator;        /**< host allocation callbacks; null = Vulkan's own */
-    VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none */
+    VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none. Compiling bank may take seconds; from a cache
+                                    that has its pipelines, milliseconds (docs/integration.md has figures) */
     VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area; see nacreResize */
     uint32_t techniques;       /**< bits 1u << NacreTechnique: those the context is made for; 0 = all. Fewer techniques
                                     take less memory per pixel and per material (see nacreGetScatterCost) */

@@ -1,12 +1,14 @@
 // shader_statistics: what the driver's compiler says of the effect's passes: registers, instructions, shared memory,
-// whatever it tells through VK_KHR_pipeline_executable_properties.
+// whatever it tells through VK_KHR_pipeline_executable_properties, and how long it takes.
 //   shader_statistics [--technique NAME|all] [--csv FILE]
 // Nothing is dispatched. Mesa compiles for AMD devices that are not there: RADV_FORCE_FAMILY=navi21 and its RADV alone
-// in VK_DRIVER_FILES.
+// in VK_DRIVER_FILES. What a driver has compiled before it reads from the disk, unless __GL_SHADER_DISK_CACHE=0
+// (NVIDIA) or MESA_SHADER_CACHE_DISABLE=1 (Mesa) is set.
 #include "nacre/nacre_parts.h"
 
 #include <vulkan/vulkan_raii.hpp>
 
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -136,18 +138,25 @@ std::string valueOf(const vk::PipelineExecutableStatisticKHR& statistic) {
     }
 }
 
-void report(const vk::raii::Device& device, const vk::raii::Pipeline& pipeline, const Program& program,
+void report(const vk::raii::Device& device, const vk::raii::PipelineLayout& layout, const Program& program,
             std::ofstream& csv) {
+    const auto start = std::chrono::steady_clock::now();
+    const vk::raii::Pipeline pipeline = makePipeline(device, layout, program);
+    const std::chrono::duration<double, std::milli> compiled = std::chrono::steady_clock::now() - start;
     std::printf("%s, %s%s%s\n ", program.technique.c_str(), program.pass.c_str(), program.form.empty() ? "" : ", ",
                 program.form.c_str());
+    const auto print = [&](const std::string& name, const std::string& value) {
+        std::printf(" %s %s;", name.c_str(), value.c_str());
+        csv << program.technique << ',' << program.pass << ",\"" << program.form << "\"," << name << ',' << value
+            << '\n';
+    };
+    print("Milliseconds to compile", std::to_string(compiled.count()));
     const vk::PipelineInfoKHR info(*pipeline);
     const auto executables = device.getPipelineExecutablePropertiesKHR(info);
     for (std::uint32_t i = 0; i < executables.size(); ++i) {
         for (const vk::PipelineExecutableStatisticKHR& statistic :
              device.getPipelineExecutableStatisticsKHR({*pipeline, i})) {
-            std::printf(" %s %s;", statistic.name.data(), valueOf(statistic).c_str());
-            csv << program.technique << ',' << program.pass << ',' << program.form << ',' << statistic.name.data()
-                << ',' << valueOf(statistic) << '\n';
+            print(statistic.name.data(), valueOf(statistic));
         }
     }
     std::puts("");
@@ -175,7 +184,7 @@ void run(const Options& options) {
         const vk::PushConstantRange slot(vk::ShaderStageFlagBits::eCompute, 0, sizeof(std::uint32_t));
         const vk::raii::PipelineLayout layout(device, vk::PipelineLayoutCreateInfo({}, *setLayout, slot));
         for (const Program& program : programsOf(technique, name, halfFloats)) {
-            report(device, makePipeline(device, layout, program), program, csv);
+            report(device, layout, program, csv);
         }
     }
     if (!known) {
