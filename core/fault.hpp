@@ -39,10 +39,12 @@ inline void requireNoFault(const std::string& fault) {
 inline constexpr const char* channelNames[3] = {"red", "green", "blue"};
 
 /// Ranges of the material model, the same in every check, in the material files and in their schema.
+/// Lower ends are those of a float, so that a value that came through one stays in its range.
 inline constexpr Range weightRange{0, 1e6, ""};
-inline constexpr Range varianceRange{0, 1e6, " mm²"};
-inline constexpr Range meanFreePathRange{1e-6, 1e4, " mm"};
-inline constexpr Range scaleRange{1e-6, 1e4, ""};
+/// Up to what the widest of the Gaussians has that stand for Burley's profile at the longest mean free path.
+inline constexpr Range varianceRange{0, 4e9, " mm²"};
+inline constexpr Range meanFreePathRange{1e-6f, 1e4, " mm"};
+inline constexpr Range scaleRange{1e-6f, 1e4, ""};
 inline constexpr Range unitRange{0, 1, ""};
 
 } // namespace nacre

@@ -15,7 +15,7 @@ constexpr Range tapCountRange{3, 255, ""};
 // mm; a profile of point masses alone needs no taps but the middle one.
 constexpr double smallestRadius = 1e-6;
 
-constexpr Range extentRange{0, 1e5, " mm", false};
+constexpr Range extentRange{0, 1e6, " mm", false};
 
 void checkTapCount(int tapCount) {
     requireNoFault(findFault("tapCount", tapCount, tapCountRange));

@@ -9,7 +9,7 @@
 namespace nacre {
 namespace {
 
-constexpr Range scatteringRange{1e-6, 1e6, " 1/mm"};
+constexpr Range scatteringRange{1e-4, 1e6, " 1/mm"};
 constexpr Range absorptionRange{0, 1e6, " 1/mm"};
 constexpr Range refractiveIndexRange{1, 3, ""};
 

@@ -31,9 +31,9 @@ private:
     std::vector<Layer> layers_;
 };
 
-/// Why these layers are no profile, e.g. "layers[2].variance is -1, must be in [0, 1000000] mm²"; empty when they are
-/// one. Refused: no layer or more than maxLayers, a weight or variance that is negative, above 1e6 or not finite, a
-/// channel whose weights sum to nothing.
+/// Why these layers are no profile, e.g. "layers[2].variance is -1, must be in [0, 4e+09] mm²"; empty when they are
+/// one. Refused: no layer or more than maxLayers, a weight or variance that is negative, above its range (1e6, 4e9 mm²)
+/// or not finite, a channel whose weights sum to nothing.
 std::string findLayerFault(std::span<const Layer> layers);
 
 /// The layers with weights scaled so that each channel sums to 1. The layers must be free of faults.

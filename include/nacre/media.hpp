@@ -10,8 +10,8 @@ namespace nacre {
 /// A homogeneous scattering medium, coefficients per channel.
 struct Medium {
     std::string name;
-    Rgb reducedScattering{};      ///< [> 0] 1/mm, σs′ = (1 − g)·σs
-    Rgb absorption{};             ///< [≥ 0] 1/mm, σa
+    Rgb reducedScattering{};      ///< [1e-4, 1e6] 1/mm, σs′ = (1 − g)·σs
+    Rgb absorption{};             ///< [0, 1e6] 1/mm, σa
     double refractiveIndex = 1.3; ///< [1, 3] relative to what lies outside
 };
 
@@ -73,7 +73,8 @@ double burleyShape(double diffuseAlbedo, BurleyEntry entry);
 
 /// Material::meanFreePath (Burley's d, mm) of a medium told by its diffuse albedo [0, 1], mean free path 1/σt [> 0] mm
 /// and anisotropy, as glTF, OpenPBR and MaterialX tell it: d = ℓ′/s(A) with diffuse entry. The Gaussian or Burley
-/// profile of media above A = 0.9 is up to 20 % off per radius.
+/// profile of media above A = 0.9 is up to 20 % off per radius. Of white media with long mean free paths it may exceed
+/// Material's range.
 Rgb burleyMeanFreePath(const Rgb& diffuseAlbedo, const Rgb& meanFreePath, double anisotropy = 0);
 
 } // namespace nacre

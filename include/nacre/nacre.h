@@ -215,18 +215,19 @@ typedef struct NacreContextInfo {
 /** One layer of a material: adds weight · exp(-r² / 2 variance) / (2 pi variance). */
 typedef struct NacreLayer {
     float weight[3]; /**< [>= 0] RGB; normalised per channel over the layers */
-    float variance;  /**< [>= 0] mm² */
+    float variance;  /**< [0, 4e9] mm² */
 } NacreLayer;
 
 /** A subsurface material. Either layers, or meanFreePath with layerCount 0. */
 typedef struct NacreMaterial {
     const NacreLayer* layers; /**< copied; may be freed after nacreSetMaterials */
     uint32_t layerCount;      /**< [0 … NACRE_MAX_LAYERS] */
-    float meanFreePath[3];    /**< [> 0] mm, d of Burley's normalised diffusion; used when layerCount is 0 */
+    float meanFreePath[3];    /**< [1e-6, 1e4] mm, d of Burley's normalised diffusion; used when layerCount is 0 */
     NacreAlbedoUse albedoUse;
     float strength;           /**< [0, 1] result = mix(irradiance, scattered, strength); 0 = no scattering */
     float translucency;       /**< [0, 1] share of diffuse light that is transmission; 0 = none */
-    float scale;              /**< [> 0] multiplies the profile's lengths; 0 = 1 */
+    float scale;              /**< [1e-6, 1e4] multiplies the profile's lengths, which keep to
+                                  their ranges; 0 = 1 */
     float thickness;          /**< [>= 0] mm, authored thickness: bounds the shadow maps' estimate, or stands in for it
                                    where a light has none; 0 = not authored */
     uint32_t exchangeGroups;  /**< bit mask: light crosses between two materials on one surface (with the receiver's

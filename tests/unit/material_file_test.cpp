@@ -67,7 +67,7 @@ TEST(MaterialFile, RefusesInOneSentenceNamingFileAndField) {
          "test.json: the key \"layers[0].sigma\" is unknown"},
         {withLayers(oneLayer, R"(, "scale": 1, "scale": 2)"), "test.json: the key \"scale\" is given twice"},
         {withLayers(R"([{"weight": [1, 1, 1], "variance": 1}, {"weight": [1, 1, 1], "variance": -1}])"),
-         "test.json: layers[1].variance is -1, must be in [0, 1000000] mm²"},
+         "test.json: layers[1].variance is -1, must be in [0, 4e+09] mm²"},
         {withLayers(many + "]"), "test.json: layers has 33 entries, must have 1 to 32"},
         {withLayers("[]"), "test.json: layers has 0 entries, must have 1 to 32"},
         {withLayers("3"), "test.json: layers is no array, must have 1 to 32"},

@@ -61,7 +61,7 @@ TEST(Material, NamesTheFirstFaultyFieldAndItsValue) {
     EXPECT_EQ(faultOf([](Material& m) { m.albedo[2] = 2; }), "albedo[2] is 2, must be in [0, 1]");
     EXPECT_EQ(faultOf([](Material& m) { m.scale = 0; }), "scale is 0, must be in [1e-06, 10000]");
     EXPECT_EQ(faultOf([](Material& m) { m.layers[0].variance = -1; }),
-              "layers[0].variance is -1, must be in [0, 1000000] mm²");
+              "layers[0].variance is -1, must be in [0, 4e+09] mm²");
     EXPECT_EQ(faultOf([](Material& m) { m.layers.resize(33, m.layers[0]); }),
               "layers has 33 entries, must have 1 to 32");
     EXPECT_EQ(faultOf([](Material& m) {
@@ -81,9 +81,9 @@ TEST(Material, NamesTheFirstFaultyFieldAndItsValue) {
               "meanFreePath[2] is -3, must be in [1e-06, 10000] mm");
     EXPECT_EQ(faultOf([](Material& m) {
                   m.scale = 1e4;
-                  m.layers[0].variance = 1;
+                  m.layers[0].variance = 100;
               }),
-              "scale²·variance is 1e+08, must be in [0, 1000000] mm²");
+              "scale²·variance is 1e+10, must be in [0, 4e+09] mm²");
 }
 
 TEST(Material, RefusesAProfileForEveryFaultThatFindFaultFinds) {

@@ -156,8 +156,8 @@ TEST(SumOfGaussians, TakesAVarianceOfZeroAsAPointMass) {
 TEST(SumOfGaussians, RefusesWhatIsNoProfile) {
     const auto fault = [](const std::vector<Layer>& layers) { return findLayerFault(layers); };
     EXPECT_EQ(fault({}), "layers has 0 entries, must have 1 to 32");
-    EXPECT_EQ(fault({{{1, 1, 1}, 1}, {{1, 1, 1}, -1}}), "layers[1].variance is -1, must be in [0, 1000000] mm²");
-    EXPECT_EQ(fault({{{1, 1, 1}, NAN}}), "layers[0].variance is nan, must be in [0, 1000000] mm²");
+    EXPECT_EQ(fault({{{1, 1, 1}, 1}, {{1, 1, 1}, -1}}), "layers[1].variance is -1, must be in [0, 4e+09] mm²");
+    EXPECT_EQ(fault({{{1, 1, 1}, NAN}}), "layers[0].variance is nan, must be in [0, 4e+09] mm²");
     EXPECT_EQ(fault({{{1, INFINITY, 1}, 1}}), "layers[0].weight[1] is inf, must be in [0, 1000000]");
     EXPECT_THROW(SumOfGaussiansProfile(std::vector<Layer>(33, {{1, 1, 1}, 1})), std::invalid_argument);
 }
