@@ -21,17 +21,47 @@ struct Sides {
     double transmittance;
 };
 
-// Lit from above. near, far: extrapolation distances z_b at the two boundaries.
-Sides litFromAbove(double albedo, double meanFreePath, double thickness, double q, double near, double far) {
-    const double source = std::min(meanFreePath, thickness);
-    const double whole = thickness + near + far;
-    const double behind = thickness + far - source; // from the source to the far extrapolated boundary
-    const double before = source + near;
-    const double reflectance = hyperbolicRatio(q * near, q * behind, q * whole, -q * before);
+// The average Fresnel reflectance F that boundaryFactor, (1 + F)/(1 − F), is made of, of light in a medium of this
+// relative index; none towards a denser one, where it would be counted when it enters.
+double internalReflectance(double relativeIndex) {
+    const double factor = boundaryFactor(relativeIndex);
+    return relativeIndex > 1 ? std::max(0.0, (factor - 1) / (factor + 1)) : 0;
+}
+
+// Where a beam meets something for the first time, and how much of it never does.
+struct Source {
+    double depth;
+    double unscattered;
+};
+
+// The mean of the exponential distribution of a beam's first event, over those inside the slab.
+Source sourceOf(double meanFreePath, double thickness) {
     if (std::isinf(thickness)) {
-        return {albedo * reflectance, 0};
+        return {meanFreePath, 0};
     }
-    return {albedo * reflectance, albedo * hyperbolicRatio(q * far, q * before, q * whole, -q * behind)};
+    const double depths = thickness / meanFreePath;
+    return {meanFreePath * (1 - depths / std::expm1(depths)), std::exp(-depths)};
+}
+
+// Of the light that the source scatters, lit from above. near, far: extrapolation distances z_b at the two boundaries.
+Sides scatteredFromAbove(double albedo, const Source& source, double thickness, double q, double near, double far) {
+    const double whole = thickness + near + far;
+    const double behind = thickness + far - source.depth; // from the source to the far extrapolated boundary
+    const double before = source.depth + near;
+    const double scattered = albedo * (1 - source.unscattered);
+    const double reflectance = scattered * hyperbolicRatio(q * near, q * behind, q * whole, -q * before);
+    if (std::isinf(thickness)) {
+        return {reflectance, 0};
+    }
+    return {reflectance, scattered * hyperbolicRatio(q * far, q * before, q * whole, -q * behind)};
+}
+
+// Adds what passes as it came. Light from a denser neighbour than the one behind is partly reflected at the face there,
+// and is then a beam of the other direction, which leaves where it came from.
+Sides withUnscattered(const Sides& scattered, const Sides& scatteredBack, double unscattered, double reflectedBehind) {
+    const double back = unscattered * reflectedBehind;
+    return {scattered.reflectance + back * (scatteredBack.transmittance + unscattered),
+            scattered.transmittance + unscattered - back + back * scatteredBack.reflectance};
 }
 
 } // namespace
@@ -47,12 +77,15 @@ SlabResponse slabResponse(const Slab& slab, int channel, double k, double above,
     };
     const double top = extrapolation(above);
     const double bottom = extrapolation(below);
-    const Sides down = litFromAbove(albedo, meanFreePath, slab.thickness, q, top, bottom);
+    const Source source = sourceOf(meanFreePath, slab.thickness);
+    const Sides down = scatteredFromAbove(albedo, source, slab.thickness, q, top, bottom);
     if (std::isinf(slab.thickness)) {
         return {down.reflectance, 0, 0, 0};
     }
-    const Sides up = litFromAbove(albedo, meanFreePath, slab.thickness, q, bottom, top);
-    return {down.reflectance, up.reflectance, down.transmittance, up.transmittance};
+    const Sides up = scatteredFromAbove(albedo, source, slab.thickness, q, bottom, top);
+    const Sides allDown = withUnscattered(down, up, source.unscattered, internalReflectance(above / below));
+    const Sides allUp = withUnscattered(up, down, source.unscattered, internalReflectance(below / above));
+    return {allDown.reflectance, allUp.reflectance, allDown.transmittance, allUp.transmittance};
 }
 
 SlabResponse stacked(const SlabResponse& top, const SlabResponse& bottom) {
@@ -105,12 +138,18 @@ Rgb LayeredMedium::rmsRadius() const {
     // R̃(k) = R̃(0)·(1 − ⟨r²⟩k²/4 + …), read where the drop is a millionth.
     Rgb result;
     for (int channel = 0; channel < 3; ++channel) {
-        const double zero = response(channel, 0).reflectanceTop;
-        double k = 1e6;
-        while (1 - response(channel, k).reflectanceTop / zero > 1e-6) {
-            k *= 0.9;
+        const Slab& last = slabs_.back();
+        if (std::isinf(last.thickness) && last.medium.absorption[channel] == 0) {
+            result[channel] = std::numeric_limits<double>::infinity();
+            continue;
         }
-        result[channel] = 2 / k * std::sqrt(1 - response(channel, k).reflectanceTop / zero);
+        const double zero = response(channel, 0).reflectanceTop;
+        const auto drop = [&](double k) { return 1 - response(channel, k).reflectanceTop / zero; };
+        double k = 1e-6;
+        while (k < 1e6 && drop(k) < 1e-6) {
+            k *= 1.1;
+        }
+        result[channel] = 2 / k * std::sqrt(std::max(0.0, drop(k)));
     }
     return result;
 }
@@ -118,16 +157,18 @@ Rgb LayeredMedium::rmsRadius() const {
 LayerFit LayeredMedium::fit(int layerCount, double SlabResponse::*side) const {
     const Rgb whole{response(0, 0).*side, response(1, 0).*side, response(2, 0).*side};
     const auto spectrum = [&](int channel, double k) { return response(channel, k).*side / whole[channel]; };
-    // From where every channel is still whole to where none has anything left.
+    // From where every channel is still whole to where none has anything left that changes: what passes a stack
+    // unscattered has every frequency.
     double low = 1e6;
     double high = 1e-6;
     for (int channel = 0; channel < 3; ++channel) {
         double k = 1e6;
-        while (k > 1e-6 && spectrum(channel, k) < 0.01) {
+        const double rest = spectrum(channel, k);
+        while (k > 1e-6 && spectrum(channel, k) < rest + 0.01 * (1 - rest)) {
             k *= 0.9;
         }
         high = std::max(high, k);
-        while (k > 1e-6 && spectrum(channel, k) < 0.995) {
+        while (k > 1e-6 && spectrum(channel, k) < rest + 0.995 * (1 - rest)) {
             k *= 0.9;
         }
         low = std::min(low, k);

@@ -21,9 +21,12 @@ struct SlabResponse {
     double transmittanceUp = 0;
 };
 
-/// A slab by the multipole in closed form: the diffusion equation's solution for a source one mean free path below the
-/// surface (never below the slab), with extrapolated boundaries, is a ratio of hyperbolic functions of
-/// q = √(k² + 3σaσt′). above, below: refractive indices of the neighbours.
+/// A slab by the multipole in closed form: the diffusion equation's solution for a source inside, with extrapolated
+/// boundaries, is a ratio of hyperbolic functions of q = √(k² + 3σaσt′). Donner and Jensen's source has all light, one
+/// mean free path ℓ deep. Ours has 1 − e^{−t/ℓ} of it, at the mean depth at which a beam meets something inside the
+/// slab, ℓ − t/(e^{t/ℓ} − 1); the rest passes as it came but for what is reflected towards a thinner neighbour. Thick
+/// slabs are theirs; index-matched ones of any thickness reflect what random walks do to 0.012, without absorption, and
+/// what the stack of their halves does to 1 %. above, below: refractive indices of the neighbours.
 SlabResponse slabResponse(const Slab& slab, int channel, double k, double above = 1, double below = 1);
 
 /// Two stacks on top of each other: T₁₂ = T₁T₂/(1 − R₁R₂), R₁₂ = R₁ + T₁R₂T₁/(1 − R₁R₂), with each side's own R.
@@ -40,7 +43,8 @@ public:
     /// Share of diffuse light that comes back, and that comes through. They sum to at most 1.
     Rgb diffuseReflectance() const;
     Rgb diffuseTransmittance() const;
-    /// √⟨r²⟩ of the reflected light, mm, from the transform's curvature at k = 0.
+    /// √⟨r²⟩ of the reflected light, mm, from the transform's curvature at k = 0. Infinite where the last slab is
+    /// and absorbs nothing.
     Rgb rmsRadius() const;
 
     /// The reflected light's profile as Gaussian layers, as Donner and Jensen's profiles were used for skin. maxError
