@@ -1,6 +1,7 @@
 // What techniques `bank` and `bank-surfaces` owe beyond their error: energy, stillness in motion, no leaks at any level
 // of the pyramid.
 #include "tests/gpu/support/scene_input.hpp"
+#include "tests/support/worst.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -83,7 +84,7 @@ TEST_P(BankBehaviourTest, AConstantFieldStaysConstantBesideAbsurdlyBrightPixels)
                     for (int channel = 0; channel < 3; ++channel) {
                         const double expected = scene.irradiance[i][channel];
                         const double deviation = std::abs(result[i][channel] - expected) / expected;
-                        largest = std::max(largest, deviation);
+                        largest = larger(largest, deviation);
                     }
                 }
                 std::printf("%-10s constant within %.5f\n", scene.name.c_str(), largest);
@@ -122,7 +123,7 @@ TEST_P(BankBehaviourTest, MovingByPixelsChangesLittle) {
                         }
                     }
                 }
-                worst = std::min(worst, decibels(squares, count));
+                worst = smaller(worst, decibels(squares, count));
             }
             std::printf("%-10s worst of seven steps of one pixel %.1f dB\n", scenes[0].name.c_str(), worst);
             EXPECT_GE(worst, 50) << scenes[0].name;
@@ -216,7 +217,8 @@ TEST_P(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
 
 using BankListTest = GpuTest;
 
-// More edge regions than a dispatch has workgroups in a row: where materials are separate, every region of 16x8 px is one.
+// More edge regions than a dispatch has workgroups in a row: where materials are separate, every region of 16x8 px is
+// one.
 TEST_F(BankListTest, OfListsLongerThanARowEveryRegionIsCombined) {
     constexpr std::uint32_t width = 8192;
     constexpr std::uint32_t height = 1040;

@@ -1,5 +1,6 @@
 // Tier 0: closed forms. A shadow edge on a plane that faces the camera, and light that is the same everywhere.
 #include "tests/gpu/support/effect.hpp"
+#include "tests/support/worst.hpp"
 
 #include <cmath>
 
@@ -47,7 +48,7 @@ protected:
             const Float4& pixel = result[input.index(middle + dx, input.extent.height / 2)];
             for (int channel = 0; channel < 3; ++channel) {
                 const double expected = profile->lineSpreadCumulative(channel, (dx + 0.5) * millimetresPerPixel);
-                worst = std::max(worst, std::abs(pixel[channel] - expected));
+                worst = larger(worst, std::abs(pixel[channel] - expected));
                 EXPECT_NEAR(pixel[channel], expected, 0.01)
                     << material.name << ", " << dx << " px from the edge, channel " << channel;
             }

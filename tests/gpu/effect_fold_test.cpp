@@ -1,6 +1,7 @@
 // Tier 0: closed forms for `brute` where the surface is not a plane. Two half planes that meet in a fold, one of them
 // lit; and normals that the depth does not bear out.
 #include "tests/gpu/support/effect.hpp"
+#include "tests/support/worst.hpp"
 
 #include <cmath>
 
@@ -76,7 +77,7 @@ protected:
             for (int channel = 0; channel < 3; ++channel) {
                 const double unlit = foldLight(material, channel, a, -1 / steepness);
                 const double expected = x < 0 ? unlit : 1 - unlit;
-                worst = std::max(worst, std::abs(pixel[channel] - expected));
+                worst = larger(worst, std::abs(pixel[channel] - expected));
                 EXPECT_NEAR(pixel[channel], expected, 0.003)
                     << material.name << ", " << x << " px from the fold, channel " << channel;
             }

@@ -3,6 +3,7 @@
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
 #include "tests/support/scatter_scenes.hpp"
+#include "tests/support/worst.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,9 +62,7 @@ float largestDifference(std::span<const Float4> a, std::span<const Float4> b) {
     float largest = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-            // A NaN counts as a difference.
-            const float difference = std::abs(a[i][channel] - b[i][channel]);
-            largest = difference <= largest ? largest : difference;
+            largest = larger(largest, std::abs(a[i][channel] - b[i][channel]));
         }
     }
     return largest;

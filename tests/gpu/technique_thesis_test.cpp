@@ -3,6 +3,7 @@
 #include "nacre/kernel.hpp"
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
+#include "tests/support/worst.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -172,9 +173,9 @@ Difference compare(std::span<const Float4> a, std::span<const Float4> b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         double largest = 0;
         for (int c = 0; c < 3; ++c) {
-            largest = std::max(largest, std::abs(double{a[i][c]} - b[i][c]));
+            largest = larger(largest, std::abs(double{a[i][c]} - b[i][c]));
         }
-        difference.largest = std::max(difference.largest, largest);
+        difference.largest = larger(difference.largest, largest);
         difference.pixels += largest > 1e-2 ? 1 : 0;
     }
     return difference;

@@ -1,4 +1,5 @@
 #include "tests/support/scatter_reference.hpp"
+#include "tests/support/worst.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -207,7 +208,7 @@ double largestError(const ScatterScene& scene, std::span<const ReferencePixel> r
     double largest = 0;
     for (const ReferencePixel& pixel : reference) {
         for (int channel = 0; channel < 3; ++channel) {
-            largest = std::max(largest, std::abs(image[scene.index(pixel.x, pixel.y)][channel] - pixel.value[channel]));
+            largest = larger(largest, std::abs(image[scene.index(pixel.x, pixel.y)][channel] - pixel.value[channel]));
         }
     }
     return largest;

@@ -2,6 +2,7 @@
 #include "nacre/bank.hpp"
 #include "nacre/burley.hpp"
 #include "nacre/gaussian.hpp"
+#include "tests/support/worst.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ double largestEdgeError(const Profile& profile, const BankWeights& weights, doub
     for (int channel = 0; channel < 3; ++channel) {
         for (int k = 0; k < 256; ++k) {
             const double tail = 1 - profile.lineSpreadCumulative(channel, (k + 0.5) / pixelsPerMillimeter);
-            largest = std::max(largest, std::abs(tail - bankTail(weights, channel, k)));
+            largest = tests::larger(largest, std::abs(tail - bankTail(weights, channel, k)));
         }
     }
     return largest;
@@ -64,7 +65,7 @@ double largestDifference(const BankWeights& a, const BankWeights& b) {
     double largest = 0;
     for (int channel = 0; channel < 3; ++channel) {
         for (int k = 0; k < 256; ++k) {
-            largest = std::max(largest, std::abs(bankTail(a, channel, k) - bankTail(b, channel, k)));
+            largest = tests::larger(largest, std::abs(bankTail(a, channel, k) - bankTail(b, channel, k)));
         }
     }
     return largest;
@@ -140,8 +141,8 @@ TEST(BankProjection, EdgeResponseIsClose) {
         double worst = 0;
         double worstOfTable = 0;
         for (const double scale : testScales(*named.profile)) {
-            worst = std::max(worst, largestEdgeError(*named.profile, projectOnBank(*named.profile, scale), scale));
-            worstOfTable = std::max(worstOfTable, largestEdgeError(*named.profile, table.at(scale), scale));
+            worst = tests::larger(worst, largestEdgeError(*named.profile, projectOnBank(*named.profile, scale), scale));
+            worstOfTable = tests::larger(worstOfTable, largestEdgeError(*named.profile, table.at(scale), scale));
         }
         std::printf("%-8s largest edge error %.4f, of the table %.4f\n", named.name, worst, worstOfTable);
         EXPECT_LT(worst, bound) << named.name;
@@ -198,7 +199,7 @@ TEST(BankTable, AgreesWithTheProjection) {
         double worst = 0;
         for (const double scale : testScales(*named.profile)) {
             const BankWeights weights = table.at(scale);
-            worst = std::max(worst, largestDifference(weights, projectOnBank(*named.profile, scale)));
+            worst = tests::larger(worst, largestDifference(weights, projectOnBank(*named.profile, scale)));
             for (int channel = 0; channel < 3; ++channel) {
                 double sum = 0;
                 for (int kernel = 0; kernel < bankSize; ++kernel) {

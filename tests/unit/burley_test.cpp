@@ -1,6 +1,7 @@
 #include "core/bessel.hpp"
 #include "nacre/burley.hpp"
 #include "nacre/gaussian.hpp"
+#include "tests/support/worst.hpp"
 
 #include <gtest/gtest.h>
 
@@ -84,7 +85,7 @@ TEST(Burley, LayersComeWithinTheStatedErrors) {
         const SumOfGaussiansProfile sum(layers);
         double worst = 0;
         for (double r = 1e-4; r < 30; r *= 1.02) {
-            worst = std::max(worst, std::abs(sum.cdf(0, r) - profile.cdf(0, r)));
+            worst = tests::larger(worst, std::abs(sum.cdf(0, r) - profile.cdf(0, r)));
         }
         EXPECT_NEAR(worst, errors[terms - 1], 0.03 * errors[terms - 1]) << terms;
     }

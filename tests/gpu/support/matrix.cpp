@@ -1,4 +1,5 @@
 #include "tests/gpu/support/matrix.hpp"
+#include "tests/support/worst.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -206,8 +207,7 @@ double largestDifference(const std::vector<Float4>& a, const std::vector<Float4>
     double largest = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-            const double difference = std::abs(double{a[i][channel]} - b[i][channel]);
-            largest = std::isnan(difference) ? 1e9 : std::max(largest, difference);
+            largest = larger(largest, std::abs(double{a[i][channel]} - b[i][channel]));
         }
     }
     return largest;
