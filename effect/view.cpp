@@ -2,7 +2,9 @@
 
 #include "validation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nacre::effect {
 namespace {
@@ -56,6 +58,26 @@ void setRays(ViewParameters& parameters, const Matrix& clip, const VkRect2D& are
     const auto clipZ = [&](Vector2 v) { return (clip(2, 0) * v.x + clip(2, 1) * v.y) / mmPerUnit; };
     parameters.depthSlope = toFloat(clipZ(rayX), clipZ(rayY), clipZ(ray) + clip(2, 2) / mmPerUnit);
     parameters.depthBias = toFloat(clipZ(originX), clipZ(originY), clipZ(origin) + clip(2, 3));
+}
+
+/// The camera's own place or, where an orthographic one sees what lies behind it, a little behind the near plane.
+double distanceOrigin(const ViewParameters& parameters, const VkRect2D& area) {
+    if (parameters.clipW.x != 0 || (parameters.flags & flagHardwareDepth) == 0) {
+        return 0;
+    }
+    double nearest = -std::numeric_limits<double>::infinity();
+    double farthest = -nearest;
+    for (int corner = 0; corner < 8; ++corner) { // of what is seen
+        const double x = area.offset.x + ((corner & 1) != 0 ? area.extent.width : 0.0);
+        const double y = area.offset.y + ((corner & 2) != 0 ? area.extent.height : 0.0);
+        const auto at = [x, y](const vec4& affine) { return affine.x * x + affine.y * y + affine.z; };
+        const double clipZ = (corner & 4) != 0 ? parameters.clipW.y : 0.0;
+        const double z = (clipZ - at(parameters.depthBias)) / at(parameters.depthSlope);
+        nearest = std::max(nearest, z);
+        farthest = std::min(farthest, z);
+    }
+    const double behind = nearest + 0.01 * (nearest - farthest);
+    return std::isfinite(behind) ? std::max(behind, 0.0) : 0.0;
 }
 
 void setWorld(ViewParameters& parameters, const Matrix& view, double mmPerUnit, const FieldName& field) {
@@ -126,6 +148,7 @@ void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& 
                              static_cast<std::int32_t>(area.extent.height)};
     parameters.mmPerUnit = static_cast<float>(unit);
     parameters.flags |= view.depthEncoding == NACRE_DEPTH_HARDWARE ? flagHardwareDepth : 0u;
+    parameters.distanceOrigin = static_cast<float>(distanceOrigin(parameters, area));
 }
 
 } // namespace nacre::effect

@@ -77,10 +77,15 @@ RawTexel emptyTexel() {
     return RawTexel(vec3(0.0), 0.0, 0.0, 0.0, 0u, false);
 }
 
+// Light as half floats may have it. No less than none, so that no difference of two is larger than one is.
+vec3 storableLight(vec3 light) {
+    return clamp(light, vec3(0.0), vec3(maxHalf));
+}
+
 // Light as the mean irradiance of the surface, so that a constant field is stored as what it is.
 uvec4 packRaw(RawTexel texel) {
     uint mass = packHalf2x16(vec2(texel.dropped ? -texel.mass : texel.mass, 0.0));
-    vec3 light = min(texel.light / max(texel.area, bankLeastWeight), vec3(maxHalf));
+    vec3 light = storableLight(texel.light / max(texel.area, bankLeastWeight));
     return uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, texel.area)),
                  floatBitsToUint(texel.depth), mass | (separateMaterials ? texel.material << 16 : 0u));
 }
@@ -259,7 +264,7 @@ ivec2 ringPosition(int index, ivec2 size) {
 // Width of a texel in mm, where the surface faces the camera; for a depth along the ray as much too wide as that ray is
 // longer than the view's middle one. Level 0 are the pixels.
 float texelWidth(int level, float depth) {
-    return float(1 << level) * parameters.pixelWidth * clipW(-depth);
+    return float(1 << level) * parameters.pixelWidth * clipW(view.distanceOrigin - depth);
 }
 
 // Depth step from a pixel to the next along one axis, in pixel widths, from the depths on either side (0 = none): their

@@ -99,7 +99,7 @@ struct ViewParameters {
     float normalBias;
     uint flags;
     uint lightCount;
-    uint unused0;
+    float distanceOrigin; // view z that distances along rays are counted from, mm; behind all that can be drawn
 };
 
 struct ScatterParameters {

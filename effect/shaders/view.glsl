@@ -58,9 +58,9 @@ float stretchAt(ivec2 pixel) {
     return length(vec3(rayAt(pixel), 1.0));
 }
 
-// How far a pixel's surface is along its ray, mm; 0 where nothing was drawn.
+// How far a pixel's surface is along its ray, mm, from view z distanceOrigin on; 0 where nothing was drawn.
 float distanceAlongRay(ivec2 pixel, float z) {
-    float along = -z * stretchAt(pixel);
+    float along = (view.distanceOrigin - z) * stretchAt(pixel);
     return isValidZ(z) && isFinite(along) ? along : 0.0;
 }
 
@@ -80,7 +80,7 @@ vec4 distancesAlongRays(ivec2 first, vec4 depth) {
         vec4 bias = dot(view.depthBias.xyz, place) + x * view.depthBias.x + y * view.depthBias.y;
         z = (bias - depth * view.clipW.y) / (depth * view.clipW.x - slope);
     }
-    vec4 along = -z * stretch;
+    vec4 along = (view.distanceOrigin - z) * stretch;
     bvec4 drawn = greaterThan(view.clipW.x * z + view.clipW.y, vec4(0.0));
     bvec4 finite = lessThan(floatBitsToUint(along) & 0x7fffffffu, uvec4(0x7f800000u));
     return mix(vec4(0.0), along, bvec4(uvec4(drawn) & uvec4(finite)));

@@ -162,6 +162,26 @@ TEST_P(ScatterTest, SameLightPerAreaHoweverItIsSeen) {
     }
 }
 
+// An orthographic camera may see what lies behind it, too.
+TEST_P(ScatterTest, SeesTheSameWhereverAnOrthographicCameraStands) {
+    const Material material = skin();
+    ScatterInput input = blocks();
+    for (std::size_t i = 0; i < input.depth.size(); ++i) {
+        input.depth[i] = i % 64 < 40 ? 0.05f : 0.06f; // 500 and 600 mm behind the near plane
+    }
+    std::vector<Float4> expected;
+    for (const float near : {0.0f, 500.0f, 800.0f}) { // behind the camera, mm
+        Projection projection = Projection::orthographic(input.extent.width, input.extent.height, 2);
+        projection.clipFromView[14] = 1e-4f * near;
+        input.view = makeView(projection);
+        input.view.depthEncoding = NACRE_DEPTH_HARDWARE;
+        const std::vector<Float4> result = scatter(input, material);
+        expected = expected.empty() ? result : expected;
+        EXPECT_LT(largestDifference(expected, result), 2e-3f) << "near plane " << near << " mm behind the camera";
+    }
+    EXPECT_GT(largestDifference(expected, input.irradiance), 0.1f);
+}
+
 TEST_P(ScatterTest, CostDoesNotDependOnMaterialsOrLayers) {
     Material tenLayers = skin();
     for (int i = 0; i < 4; ++i) {
