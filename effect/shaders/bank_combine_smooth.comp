@@ -12,7 +12,8 @@ const bool isEdge = false;
 
 shared uvec2 fineLights[fineCount]; // of level 1's texels: light times mass, and mass
 
-// What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is.
+// What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is; never
+// as sums of differences, which may be larger than a half float is.
 #ifdef HALF_FLOATS
 #define Real float16_t
 #define Real2 f16vec2
@@ -35,10 +36,16 @@ uvec2 packLight(Light light) {
 }
 #endif
 
+// The mean of three, whose first and last weigh `beside` times as much as the middle one. Mixed one after the other: of two
+// differences with one weight a compiler may make the sum first.
+Light mixBeside(Light before, Light middle, Light after, float beside) {
+    Light mixed = fma(Light(beside / (1.0 + beside)), before - middle, middle);
+    return fma(Light(beside / (1.0 + 2.0 * beside)), after - mixed, mixed);
+}
+
 // The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
 // middle in x and y.
 void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
-    vec2 side = beside / (1.0 + 2.0 * beside);
     Light rows[4][2]; // the block's rows, filtered along x for the quad's two columns
     [[unroll]] for (int y = 0; y < 4; ++y) {
         Light row[4];
@@ -46,15 +53,13 @@ void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
             row[x] = storedLight(pixelLights[ownPlace(thread, ivec2(x, y) - 1)]);
         }
         [[unroll]] for (int x = 0; x < 2; ++x) {
-            Light middle = row[x + 1];
-            rows[y][x] = fma(Light(side.x), row[x] - middle, fma(Light(side.x), row[x + 2] - middle, middle));
+            rows[y][x] = mixBeside(row[x], row[x + 1], row[x + 2], beside.x);
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
-        Light middle = rows[y + 1][x]; // added last, so that only once all of it is rounded
-        result[i] = fma(Light(side.y), (rows[y][x] - middle) + (rows[y + 2][x] - middle), middle);
+        result[i] = mixBeside(rows[y][x], rows[y + 1][x], rows[y + 2][x], beside.y);
     }
 }
 
@@ -166,8 +171,8 @@ Seen plainLevel(Corner corner) {
     Light lowerSlope = storedLight(levelLights[below + 1]) - lower;
     upper = fma(Light(fraction.x), upperSlope, upper);
     Light slopeY = fma(Light(fraction.x), lowerSlope, lower) - upper;
-    return Seen(vec4(fma(Light(fraction.y), slopeY, upper)), fma(Light(fraction.y), lowerSlope - upperSlope, upperSlope),
-                slopeY);
+    precise Light slopeX = fma(Light(fraction.y), lowerSlope, Light(Real(1.0) - fraction.y) * upperSlope);
+    return Seen(vec4(fma(Light(fraction.y), slopeY, upper)), slopeX, slopeY);
 }
 
 // With depth weights. `share`: how much of the level there is at the quad's depth, [0, 1].

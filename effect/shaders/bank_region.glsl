@@ -150,7 +150,8 @@ vec3 fetchLight(ivec2 local) {
 void storePixel(int index, vec3 light, float depth, float area, uint material) {
     bool receives = material != 0u && (!isEdge || depth > 0.0);
     bool gives = receives && (!isEdge || isFinite(light)); // what is not, is in no smooth region
-    uvec2 words = uvec2(packHalf2x16(min(light.rg, vec2(maxHalf))), packHalf2x16(vec2(min(light.b, maxHalf), isEdge ? area : 1.0)));
+    light = storableLight(light);
+    uvec2 words = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, isEdge ? area : 1.0)));
     pixelLights[index] = gives ? words : uvec2(0u);
     if (isEdge) {
         pixelDepths[index] = receives ? depth : 0.0;

@@ -111,7 +111,7 @@ void main() {
     bool scatters = material != 0u && isValidZ(z) && materials[material].radius > 0.0;
 #ifdef HORIZONTAL
     // An infinite or absurdly bright source saturates instead of becoming an infinity that the other pass spreads.
-    imageStore(rows, local, vec4(scatters ? min(gather(pixel, material, z), vec3(maxHalf)) : vec3(0.0), 1.0));
+    imageStore(rows, local, vec4(scatters ? clamp(gather(pixel, material, z), vec3(-maxHalf), vec3(maxHalf)) : vec3(0.0), 1.0));
 #else
     if (scatters && strengthAt(pixel, material) > 0.0) {
         writeScattered(pixel, material, gather(pixel, material, z));

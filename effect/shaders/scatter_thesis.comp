@@ -157,7 +157,7 @@ void main() {
     bool written = materialAt(pixel) == passMaterial;
 #ifdef HORIZONTAL
     if (written) {
-        imageStore(rows, local, own.color.a > 0.0 ? vec4(min(light, vec3(maxHalf)), 1.0) : vec4(0.0));
+        imageStore(rows, local, own.color.a > 0.0 ? vec4(clamp(light, vec3(-maxHalf), vec3(maxHalf)), 1.0) : vec4(0.0));
     }
 #else
     if (written && own.color.a > 0.0) {

@@ -198,6 +198,8 @@ TEST_P(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
     input.irradiance[scene.index(51, 60)] = {infinity, 1, 1, 1};
     input.irradiance[scene.index(52, 60)] = {1, -infinity, 1, 1};
     input.irradiance[scene.index(53, 60)] = {1, 1, 3e38f, 1};
+    input.irradiance[scene.index(30, 20)] = {-1e9f, -3e38f, 1, 1};
+    input.irradiance[scene.index(31, 20)] = {6e4f, 6e4f, -6e4f, 1};
     input.depth[scene.index(54, 60)] = nan;
     input.depth[scene.index(55, 60)] = infinity;
     input.depth[scene.index(56, 60)] = 0;
@@ -210,6 +212,34 @@ TEST_P(BankBehaviourTest, ValuesThatAreNotFiniteAreContained) {
         for (int x = 0; x < scene.width; ++x) {
             for (int channel = 0; channel < 3; ++channel) {
                 ASSERT_TRUE(std::isfinite(result[scene.index(x, y)][channel])) << x << ", " << y;
+            }
+        }
+    }
+}
+
+// Light just below the largest half float, between no light, is scattered as a ten-thousandth of it is.
+TEST_P(BankBehaviourTest, TheBrightestLightIsScatteredAsAnyIs) {
+    const ScatterScene scene = makeScatterScene({.footprint = 20, .width = 128, .height = 96});
+    for (const VkBool32 shaderFloat16 : {VK_FALSE, gpu.shaderFloat16}) {
+        const auto effect = makeEffect(scene, shaderFloat16);
+        const auto lit = [&](float bright) {
+            ScatterInput input = toInput(scene);
+            for (int y = 0; y < scene.height; ++y) {
+                for (int x = 0; x < scene.width; ++x) { // rows, columns and blocks of every level
+                    const int period = 2 << (x / 16 % 6);
+                    const int place = y < 32 ? x : y < 64 ? y : x + y;
+                    const float light = place % period < period / 2 ? 0 : bright;
+                    input.irradiance[scene.index(x, y)] = {light, light, light, 1};
+                }
+            }
+            return effect->scatter(input, GetParam());
+        };
+        const std::vector<Float4> dim = lit(6.5f);
+        const std::vector<Float4> bright = lit(65000);
+        for (std::size_t i = 0; i < dim.size(); ++i) {
+            for (int channel = 0; channel < 3; ++channel) {
+                ASSERT_NEAR(bright[i][channel] * 1e-4f, dim[i][channel], 0.02f)
+                    << i % scene.width << ", " << i / scene.width;
             }
         }
     }
