@@ -37,7 +37,10 @@ void checkLimit(std::uint32_t has, std::uint32_t needs, const char* limit) {
 
 void openDevice(Device& device, const NacreContextInfo& info) {
     device.handle = info.device;
-    device.allocator = info.allocator;
+    if (info.allocator) {
+        device.callbacks = *info.allocator;
+        device.allocator = &device.callbacks;
+    }
     device.vk = loadDispatchTable(info.getInstanceProcAddr, info.instance, info.device);
     device.vk.GetPhysicalDeviceMemoryProperties(info.physicalDevice, &device.memory);
     VkPhysicalDeviceProperties properties{};

@@ -12,7 +12,8 @@ namespace nacre::effect {
 
 struct Device {
     VkDevice handle = VK_NULL_HANDLE;
-    const VkAllocationCallbacks* allocator = nullptr;
+    const VkAllocationCallbacks* allocator = nullptr; ///< null or `callbacks`, the caller's
+    VkAllocationCallbacks callbacks{};
     DispatchTable vk;
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};

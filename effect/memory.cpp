@@ -10,21 +10,21 @@ namespace {
 constexpr VkMemoryPropertyFlags hostCoherent =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-/// The first memory type that has all of the earliest possible set of
-/// properties.
-std::uint32_t chooseMemoryType(const Device& device, std::uint32_t typeBits, MemoryUse use) {
+/// Memory types that will do, those in device memory first. Many devices have little of it that the host can write.
+std::vector<std::uint32_t> memoryTypes(const Device& device, const VkMemoryRequirements& requirements, MemoryUse use) {
     const VkMemoryPropertyFlags needs = use == MemoryUse::Host ? hostCoherent : 0;
-    for (const VkMemoryPropertyFlags wish : {needs | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, needs}) {
+    std::vector<std::uint32_t> types;
+    for (const VkMemoryPropertyFlags local : {VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT}, 0u}) {
         for (std::uint32_t type = 0; type < device.memory.memoryTypeCount; ++type) {
-            if ((typeBits >> type & 1u) != 0 && (device.memory.memoryTypes[type].propertyFlags & wish) == wish) {
-                return type;
+            const VkMemoryType& memory = device.memory.memoryTypes[type];
+            if ((requirements.memoryTypeBits >> type & 1u) != 0 && (memory.propertyFlags & needs) == needs &&
+                (memory.propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) == local &&
+                device.memory.memoryHeaps[memory.heapIndex].size >= requirements.size) {
+                types.push_back(type);
             }
         }
     }
-    fail(NACRE_ERROR_UNSUPPORTED_DEVICE,
-         "the device has no memory type for the effect's resources "
-         "(memoryTypeBits ",
-         typeBits, ")");
+    return types;
 }
 
 void checkGivenMemory(const NacreMemory& given, const VkMemoryRequirements& requirements, MemoryUse use,
@@ -56,10 +56,25 @@ void MemoryLayout::add(Buffer* buffer, Image* image, const VkMemoryRequirements&
 Owned<VkDeviceMemory> MemoryLayout::allocate(MemoryUse use) const {
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = requirements_.size;
-    info.memoryTypeIndex = chooseMemoryType(device_, requirements_.memoryTypeBits, use);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(device_.vk.AllocateMemory(device_.handle, &info, device_.allocator, &memory), "vkAllocateMemory");
-    return {device_, memory, device_.vk.FreeMemory};
+    VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    for (const std::uint32_t type : memoryTypes(device_, requirements_, use)) {
+        info.memoryTypeIndex = type;
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        result = device_.vk.AllocateMemory(device_.handle, &info, device_.allocator, &memory);
+        if (result == VK_SUCCESS) {
+            return {device_, memory, device_.vk.FreeMemory};
+        }
+        if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+            break;
+        }
+    }
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+        fail(NACRE_ERROR_OUT_OF_MEMORY, "the device has no ", requirements_.size, " bytes of ",
+             use == MemoryUse::Host ? "host-visible" : "device", " memory for the effect (memoryTypeBits 0x", std::hex,
+             requirements_.memoryTypeBits, ")");
+    }
+    check(result, "vkAllocateMemory");
+    return {};
 }
 
 Owned<VkDeviceMemory> MemoryLayout::place(MemoryUse use, const NacreMemory& given, const char* field) const {

@@ -23,8 +23,8 @@ public:
     void add(Image& image) { add(nullptr, &image, image.requirements); }
     const VkMemoryRequirements& requirements() const { return requirements_; }
 
-    /// Binds all resources to `given` or, when its memory is null, to new memory,
-    /// which is returned. `field` names `given`.
+    /// Binds all resources to `given` or, when its memory is null, to new memory, which is returned. `field` names
+    /// `given`.
     Owned<VkDeviceMemory> place(MemoryUse use, const NacreMemory& given, const char* field) const;
 
 private:

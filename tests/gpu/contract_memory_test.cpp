@@ -2,6 +2,9 @@
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
 
+#include <cstdlib>
+#include <string_view>
+
 using namespace nacre;
 using namespace nacre::tests;
 
@@ -33,6 +36,52 @@ struct Piece {
 
     Gpu& gpu;
     NacreMemory given{};
+};
+
+// A device that pretends to have one more type of memory, in device memory and for the host, of which nothing is left.
+struct FullHeap {
+    static inline std::uint32_t type;
+    static inline VkDeviceSize size;
+    static inline int asked;
+
+    static VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* result) {
+        vkGetPhysicalDeviceMemoryProperties(device, result);
+        type = result->memoryTypeCount++;
+        result->memoryTypes[type] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                                     result->memoryHeapCount};
+        result->memoryHeaps[result->memoryHeapCount++] = {size, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+        for (std::uint32_t other = 0; other < type; ++other) { // so that it is preferred
+            result->memoryTypes[other].propertyFlags &= ~VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        }
+    }
+    static VKAPI_ATTR void VKAPI_CALL requirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* result) {
+        vkGetBufferMemoryRequirements(device, buffer, result);
+        result->memoryTypeBits |= 1u << type;
+    }
+    static VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                   const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+        if (info->memoryTypeIndex == type) {
+            ++asked;
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        }
+        return vkAllocateMemory(device, info, callbacks, memory);
+    }
+    template <typename Function> static PFN_vkVoidFunction plain(Function* function) {
+        return reinterpret_cast<PFN_vkVoidFunction>(function);
+    }
+    static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
+        const std::string_view asked(name);
+        return asked == "vkAllocateMemory"                ? plain(&allocate)
+               : asked == "vkGetBufferMemoryRequirements" ? plain(&requirements)
+                                                          : vkGetDeviceProcAddr(device, name);
+    }
+    static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
+        const std::string_view asked(name);
+        return asked == "vkGetDeviceProcAddr"                   ? plain(&deviceFunction)
+               : asked == "vkGetPhysicalDeviceMemoryProperties" ? plain(&properties)
+                                                                : vkGetInstanceProcAddr(instance, name);
+    }
 };
 
 class MemoryTest : public GpuTest {
@@ -72,6 +121,50 @@ TEST_F(MemoryTest, GivenMemoryIsUsedAndGivesTheSamePicture) {
     EXPECT_NE(placed.messages.back().find("NacreContextInfo::deviceMemory.size is"), std::string::npos);
     EXPECT_EQ(placed.scatter(input_, NACRE_TECHNIQUE_BANK), own.scatter(input_, NACRE_TECHNIQUE_BANK));
     EXPECT_EQ(nacreResize(placed.context, {16, 16}), NACRE_SUCCESS);
+}
+
+TEST_F(MemoryTest, OtherMemoryWillDoWhereTheBestIsFull) {
+    NacreContextInfo info = gpu.contextInfo(input_.extent);
+    info.techniques = 1u << NACRE_TECHNIQUE_BANK;
+    const Material material = skin();
+    Effect usual(gpu, info);
+    usual.setMaterials({&material, 1});
+    info.getInstanceProcAddr = FullHeap::instanceFunction;
+    for (const VkDeviceSize size : {VkDeviceSize{1} << 30, VkDeviceSize{4096}}) {
+        FullHeap::size = size;
+        FullHeap::asked = 0;
+        Effect effect(gpu, info);
+        EXPECT_EQ(FullHeap::asked, size > 4096 ? 1 : 0) << "what is too small is not asked for";
+        effect.setMaterials({&material, 1});
+        EXPECT_EQ(effect.scatter(input_, NACRE_TECHNIQUE_BANK), usual.scatter(input_, NACRE_TECHNIQUE_BANK));
+    }
+}
+
+TEST_F(MemoryTest, TheAllocatorIsCopied) {
+    static int living;
+    living = 0;
+    VkAllocationCallbacks callbacks{};
+    callbacks.pfnAllocation = [](void*, std::size_t size, std::size_t alignment, VkSystemAllocationScope) -> void* {
+        ++living;
+        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    };
+    callbacks.pfnReallocation = [](void*, void* old, std::size_t size, std::size_t, VkSystemAllocationScope) -> void* {
+        living += old == nullptr;
+        return std::realloc(old, size);
+    };
+    callbacks.pfnFree = [](void*, void* memory) {
+        living -= memory != nullptr;
+        std::free(memory);
+    };
+    NacreContextInfo info = gpu.contextInfo(input_.extent);
+    info.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
+    info.allocator = &callbacks;
+    {
+        Effect effect(gpu, info);
+        EXPECT_GT(living, 0);
+        callbacks = {};
+    }
+    EXPECT_EQ(living, 0);
 }
 
 TEST_F(MemoryTest, WrongMemoryIsRefused) {
