@@ -67,6 +67,8 @@ TEST_F(ArgumentsTest, Scatter) {
          "NacreScatterInfo::scattered.usage is 0x4, lacks 0x8"},
         {[](auto& i) { i.depth.layout = VK_IMAGE_LAYOUT_UNDEFINED; }, NACRE_ERROR_INVALID_ARGUMENT,
          "NacreScatterInfo::depth.layout is VkImageLayout 0"},
+        {[](auto& i) { i.depth.layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_STENCIL_READ_ONLY_OPTIMAL; },
+         NACRE_ERROR_INVALID_ARGUMENT, "must be a read-only layout"},
         {[](auto& i) {
              i.depth.extent = {8, 16};
          },
