@@ -52,8 +52,9 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(device.vk.CreateComputePipelines(device.handle, cache, 1, &info, device.allocator, &pipeline),
           "vkCreateComputePipelines");
+    Owned<VkPipeline> owned{device, pipeline, device.vk.DestroyPipeline};
     nameObject(device, VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), pass.name);
-    return {device, pipeline, device.vk.DestroyPipeline};
+    return owned;
 }
 
 namespace {

@@ -1,6 +1,32 @@
 // What can be asked without a context.
+#include "bindings.hpp"
 #include "context.hpp"
 #include "validation.hpp"
+
+#include <algorithm>
+
+namespace nacre::effect {
+namespace {
+
+/// Of a context with every technique, in the set layout that has more of them.
+std::uint32_t mostDescriptors(VkDescriptorType type) {
+    std::uint32_t most = 0;
+    for (const CallKind kind : {CallKind::Scatter, CallKind::Transmit}) {
+        IntermediateSet used = 0;
+        for (std::size_t i = 0; i < techniqueCount; ++i) {
+            used |= (i == transmitIndex) == (kind == CallKind::Transmit) ? techniques[i]->uses() : 0;
+        }
+        std::uint32_t count = 0;
+        for (const NacreBinding& binding : bindingsOf(kind, used, {1, 1})) {
+            count += binding.type == type ? binding.count : 0;
+        }
+        most = std::max(most, count);
+    }
+    return most;
+}
+
+} // namespace
+} // namespace nacre::effect
 
 using namespace nacre::effect;
 
@@ -43,10 +69,9 @@ NacreResult nacreGetRequirements(NacreRequirements* requirements) {
     requirements->apiVersion = VK_API_VERSION_1_2;
     requirements->features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
     requirements->features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    // The larger set layout (programs.cpp): transmit has the images, scatter the buffers.
-    requirements->maxPerStageDescriptorSampledImages = 5 + maxShadowMaps;
-    requirements->maxPerStageDescriptorStorageImages = 3 + static_cast<uint32_t>(intermediateCount);
-    requirements->maxPerStageDescriptorStorageBuffers = 3 + static_cast<uint32_t>(intermediateCount);
+    requirements->maxPerStageDescriptorSampledImages = mostDescriptors(VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
+    requirements->maxPerStageDescriptorStorageImages = mostDescriptors(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    requirements->maxPerStageDescriptorStorageBuffers = mostDescriptors(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
     return NACRE_SUCCESS;
 }
 
