@@ -186,7 +186,9 @@ NacreResult nacreFillLights(const NacreTransmitInfo* info, const NacreMessages* 
     return guarded(messages, [&] {
         checkGiven(info, "NacreTransmitInfo");
         checkLights(*info);
-        checkBlock(data, size, info->lightCount * sizeof(LightParameters));
-        fillLights(*info, static_cast<std::byte*>(data));
+        if (info->lightCount > 0) {
+            checkBlock(data, size, info->lightCount * sizeof(LightParameters));
+            fillLights(*info, static_cast<std::byte*>(data));
+        }
     });
 }

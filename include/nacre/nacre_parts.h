@@ -104,8 +104,9 @@ NACRE_API NacreResult nacreGetPasses(NacreTechnique technique, VkExtent2D area, 
 /** A material's element of "materials" (MaterialParameters). */
 NACRE_API NacreResult nacreFillMaterial(const NacreMaterial* material, const NacreMessages* messages, size_t size,
                                         void* data);
-/** A material's element of "tables": its profile as the technique reads it. That of NACRE_TECHNIQUE_BANK is that of
- *  NACRE_TECHNIQUE_BANK_SURFACES, too: which of them a frame takes, for NacreMaterial::secondSurfaces, is the caller's. */
+/** A material's element of "tables": its profile, and of NACRE_TECHNIQUE_BANK its strength, as the technique reads them.
+ *  NACRE_TECHNIQUE_BANK_SURFACES has the same: which of the two a frame takes, for NacreMaterial::secondSurfaces, is the
+ *  caller's. */
 NACRE_API NacreResult nacreFillTable(NacreTechnique technique, const NacreMaterial* material,
                                      const NacreMessages* messages, size_t size, void* data);
 /** "parameters" of a scatter technique (ScatterParameters). Of info's images only the extents of depth and materialId are

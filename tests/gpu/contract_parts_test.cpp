@@ -233,6 +233,8 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
     const auto noDepth = changed(scatter, [](auto& i) { i.depth.extent = {}; });
     const auto badOffset = changed(transmit, [](auto& i) { i.normalOffset = -1; });
     const auto noLights = changed(transmit, [](auto& i) { i.lights = nullptr; });
+    const auto none = changed(noLights, [](auto& i) { i.lightCount = 0; });
+    EXPECT_EQ(nacreFillLights(&none, nullptr, 0, nullptr), NACRE_SUCCESS);
     NacreLight badLight = light;
     badLight.shadowMap = 0;
     const auto noMap = changed(transmit, [&](auto& i) { i.lights = &badLight; });
