@@ -58,7 +58,7 @@ const float bankPixelDepthVariance = 2.0f;
 const float bankLargestArea = 8.0f;
 // Sums of weights are not divided by less than this: where every tap is on another surface the light fades out.
 const float bankLeastWeight = 1e-6f;
-// A region of 32x16 px whose depth, with one 2x2 block around, changes by less than this many pixel widths from pixel to
+// A part of 16x8 px whose depth, with one 2x2 block around, changes by less than this many pixel widths from pixel to
 // pixel, or goes on more steeply (bankContinuedStep), is smooth: its pixels are combined without looking for surfaces
 // (docs/scatter.md, "Two pipelines"). A texel of the blurred levels is plain where the first holds from texel to texel.
 // 3 is a slope of 72 degrees. With 1.2, 50 degrees, tilted sheets take 100 µs more (1920x1080, NVIDIA H200), and no case
