@@ -55,6 +55,30 @@ TEST_F(Errors, MemoryIsGivenBackAfterARefusal) {
     EXPECT_NO_THROW(render(plane(), plainSettings()));
 }
 
+TEST_F(Errors, TechniquesTooLargeForTheDeviceKeepNoOtherFromThePicture) {
+    // What brute keeps of these pixels is more than the 128 MiB of one buffer that Vulkan promises.
+    renderer::RenderSettings settings = plainSettings();
+    settings.width = 2000;
+    settings.height = 1400;
+    settings.scatter = true;
+    renderer::Renderer renderer = render(plane(), settings);
+    renderer::EffectSettings brute = settings;
+    brute.technique = renderer::Technique::Brute;
+    int refusals = 0;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        try {
+            renderer.setEffect(brute);
+        } catch (const renderer::RendererError& error) {
+            EXPECT_NE(std::string(error.what()).find("maxStorageBufferRange"), std::string::npos) << error.what();
+            ++refusals;
+        }
+    }
+    EXPECT_NE(refusals, 1);
+    if (refusals > 0) {
+        EXPECT_NO_THROW(renderer.render(plane().cameras[0]));
+    }
+}
+
 TEST_F(Errors, Cameras) {
     const auto refuse = [](const std::function<void(scene::Camera&)>& change, const std::string& word) {
         scene::Scene scene = plane();
