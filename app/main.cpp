@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -60,6 +61,7 @@ int run(CLI::App& app, int argumentCount, char** arguments) {
 } // namespace
 
 int main(int argumentCount, char** arguments) {
+    std::signal(SIGXFSZ, SIG_IGN); // so that writing too large a file fails with a reason
     try {
         CLI::App app("Nacre renders light that travels under a surface: skin, marble, wax, jade, leaves.", "nacre");
         app.set_version_flag("--version", "nacre " NACRE_VERSION);
