@@ -5,10 +5,13 @@
 #include "scene/import_mesh.hpp"
 
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <numbers>
@@ -243,6 +246,30 @@ TEST(Isolation, TurnsCrashesIntoSentences) {
         return {};
     };
     EXPECT_EQ(run(sleep, {1, 1 << 30}), "file: takes too long to read; it is probably damaged");
+}
+
+TEST(Isolation, EndsWithItsParent) {
+    int pipes[2];
+    ASSERT_EQ(::pipe(pipes), 0);
+    const pid_t parent = ::fork();
+    if (parent == 0) {
+        ::close(pipes[0]);
+        runIsolated("file", {}, [&]() -> Scene {
+            (void)!::write(pipes[1], "x", 1);
+            ::sleep(1000);
+            return {};
+        });
+        ::_exit(0);
+    }
+    ::close(pipes[1]);
+    char byte = 0;
+    EXPECT_EQ(::read(pipes[0], &byte, 1), 1); // the child is reading
+    ::kill(parent, SIGTERM);
+    ::waitpid(parent, nullptr, 0);
+    pollfd end{pipes[0], POLLIN, 0};
+    ASSERT_EQ(::poll(&end, 1, 10'000), 1) << "the child goes on without its parent";
+    EXPECT_EQ(::read(pipes[0], &byte, 1), 0);
+    ::close(pipes[0]);
 }
 
 TEST(Isolation, BringsEveryMemberAcross) {
