@@ -332,17 +332,23 @@ TEST_F(Import, ShowsTheWholeModel) {
     EXPECT_LT(glm::dot(scene.lights[2].direction, forward), 0); // back light from behind
 }
 
-TEST_F(Import, FitsTheExposureToBrightLights) {
+TEST_F(Import, FitsBrightLightsAmongEachOther) {
     Scene scene = load(store("sphere.stl", stl(sphereFacets(4))));
-    scene.lights.resize(1);
-    scene.lights[0].color = glm::vec3(1);
-    scene.lights[0].intensity = 3;
-    fitExposure(scene);
-    EXPECT_EQ(scene.exposure, 1);
-    scene.lights[0].intensity = 100000;
-    fitExposure(scene);
-    EXPECT_NEAR(scene.exposure * 100000, std::numbers::pi, 1e-3);
-    EXPECT_NEAR(scene.exposure * scene.environment.intensity, 1, 1e-5);
+    scene.lights.resize(2);
+    scene.lights[0].color = scene.lights[1].color = glm::vec3(1);
+    scene.lights[0].intensity = 2;
+    scene.lights[1].intensity = 1;
+    fitLights(scene);
+    EXPECT_EQ(scene.lights[0].intensity, 2);
+    for (const float factor : {1e-3f, 1e5f}) {
+        scene.lights[0].intensity = 2 * factor;
+        scene.lights[1].intensity = 1 * factor;
+        fitLights(scene);
+        EXPECT_NEAR(scene.lights[0].intensity, std::numbers::pi * 2 / 3, 1e-5);
+        EXPECT_NEAR(scene.lights[1].intensity, std::numbers::pi / 3, 1e-5);
+    }
+    EXPECT_EQ(scene.exposure, 1); // the sky and built-in lights stay as bright as they look
+    EXPECT_EQ(scene.environment.intensity, 1);
 }
 
 TEST_F(Import, AssignsAMaterialToEverySurface) {
