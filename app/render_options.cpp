@@ -145,7 +145,10 @@ std::string_view techniqueName(Technique technique) {
 RenderOptionParser::RenderOptionParser(CLI::App& command) {
     const auto add = [&command](const std::string& group, const std::string& name, auto& value,
                                 const std::string& description, const std::string& type) {
-        command.add_option(name, value, description)->type_name(type)->group(group);
+        command.add_option(name, value, description)
+            ->type_name(type)
+            ->group(group)
+            ->allow_extra_args(false); // one value each time, so that a scene may follow it
     };
     const auto addFlag = [&command](const std::string& group, const std::string& name, bool& value,
                                     const std::string& description) {

@@ -20,6 +20,8 @@ const std::vector<WrongUsage> wrongUsages{
     {"UnknownCommand", {"paint"}, {"paint"}},
     {"UnknownOption", {"render", "--colour", "red"}, {"--colour"}},
     {"TwoScenes", {"render", "a.obj", "b.obj"}, {"b.obj"}},
+    {"LightThenTwoScenes", {"render", "--light", "back", "a.obj", "b.obj"}, {"b.obj"}},
+    {"AovThenTwoScenes", {"render", "--aov", "depth=d.exr", "a.obj", "b.obj"}, {"b.obj"}},
     {"MissingValue", {"render", "--size"}, {"--size"}},
     {"SizeZero", {"render", "--size", "0x0"}, {"--size", "0x0", "1x1"}},
     {"SizeHuge", {"render", "--size", "100000x100000"}, {"--size", "100000x100000", "16384x16384"}},
