@@ -113,12 +113,16 @@ std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& 
     return point;
 }
 
-void requireRange(double value, double low, double high, const std::string& option) {
-    if (!(value >= low && value <= high)) {
-        std::array<char, 128> text{};
-        std::snprintf(text.data(), text.size(), " %g is outside %g to %g", value, low, high);
-        throw UsageError(option + text.data());
+/// Whether both names lead to one file, if need be through links.
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
+    std::error_code error;
+    if (std::filesystem::equivalent(one, other, error)) {
+        return true;
     }
+    const auto place = [&](const std::filesystem::path& file) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    };
+    return place(one) == place(other);
 }
 
 /// No output may replace another one or the input.
@@ -126,13 +130,12 @@ void requireDistinctFiles(const RenderOptions& options) {
     std::vector<std::filesystem::path> files{options.input, options.material, options.output, options.json};
     std::ranges::transform(options.aovs, std::back_inserter(files), &AovOutput::file);
     std::erase(files, std::filesystem::path());
-    std::ranges::transform(files, files.begin(), [](const std::filesystem::path& file) {
-        return std::filesystem::absolute(file).lexically_normal();
-    });
-    std::ranges::sort(files);
-    const auto twin = std::ranges::adjacent_find(files);
-    if (twin != files.end()) {
-        throw UsageError("the same file is given twice: '" + twin->string() + "'");
+    for (auto file = files.begin(); file != files.end(); ++file) {
+        const auto twin =
+            std::find_if(files.begin(), file, [&](const auto& other) { return isSameFile(*file, other); });
+        if (twin != file) {
+            throw UsageError("the same file is given twice: '" + twin->string() + "' and '" + file->string() + "'");
+        }
     }
 }
 

@@ -1,6 +1,9 @@
 // Help, version, and wrong usage: exit code 2 and one sentence that names the option and its value. Needs no device.
 #include "command.hpp"
 
+#include <filesystem>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +12,8 @@ namespace {
 using nacre::test::CommandTest;
 using nacre::test::expectComplaint;
 using nacre::test::Outcome;
+using nacre::test::readText;
+using nacre::test::writeText;
 
 struct WrongUsage {
     std::string name;
@@ -77,6 +82,20 @@ protected:
         }
     }
 };
+
+TEST_F(UsageTest, NoOutputReplacesAnotherFileThroughALink) {
+    writeText(folder() / "scene.json", "{}");
+    std::filesystem::create_symlink("scene.json", folder() / "link.json");
+    std::filesystem::create_hard_link(folder() / "scene.json", folder() / "twin.json");
+    std::filesystem::create_directory_symlink(".", folder() / "here");
+    const std::vector<std::string> before = files();
+    for (const char* output : {"link.json", "twin.json", "here/scene.json"}) {
+        expectComplaint(run({"render", "scene.json", "--json", output}), 2, {"same file", "'scene.json'", output});
+    }
+    expectComplaint(run({"render", "-o", "a.exr", "--aov", "depth=here/a.exr"}), 2, {"same file", "here/a.exr"});
+    EXPECT_EQ(files(), before);
+    EXPECT_EQ(readText(folder() / "scene.json"), "{}");
+}
 
 TEST_F(UsageTest, AloneSaysWhatThereIs) {
     expectText({}, {"render", "material", "devices", "Examples", "--help"});
