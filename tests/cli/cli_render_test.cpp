@@ -213,6 +213,22 @@ TEST_F(RenderTest, EveryAovIsWritten) {
     }
 }
 
+TEST_F(RenderTest, AnExrOfManySamplesHasTheSizeAndLightOfThePicture) {
+    const auto mean = [&](const char* samples) {
+        render({bunny, "--samples", samples, "-o", "color.exr"});
+        const ExrImage image = readExr(folder() / "color.exr");
+        EXPECT_EQ(image.width, width);
+        EXPECT_EQ(image.height, height);
+        double sum = 0;
+        for (const float value : image.firstChannel) {
+            sum += value;
+        }
+        return sum / width / height;
+    };
+    const double one = mean("1");
+    EXPECT_NEAR(mean("3"), one, 0.05 * one);
+}
+
 TEST_F(RenderTest, ValidationIsClean) {
     EXPECT_TRUE(render({bunny, "--material", "wax", "--validation"})["validationMessages"].empty());
 }
