@@ -162,13 +162,14 @@ RenderOptionParser::RenderOptionParser(CLI::App& command) {
 
     const std::string picture = "Picture";
     add(picture, "-o,--output", options_.output,
-        "FILE.png (sRGB) or FILE.exr (linear); default " + options_.output.string(), "FILE");
+        "FILE.png (sRGB) or FILE.exr (linear, before exposure and tone curve); default " + options_.output.string(),
+        "FILE");
     add(picture, "--size", size_, "Pixels; default " + size_, "WxH");
     add(picture, "--samples", options_.settings.samples,
         "Samples per axis of a pixel, 1 to " + std::to_string(maxSamples) + "; AOVs have a pixel for each; default " +
             std::to_string(options_.settings.samples),
         "N");
-    add(picture, "--exposure", exposure_, "Brighter (> 0) or darker (< 0) by powers of two", "EV");
+    add(picture, "--exposure", exposure_, "Make a PNG brighter (> 0) or darker (< 0) by powers of two", "EV");
     add(picture, "--material", options_.material, "Give every body this material: a preset or a material file",
         "NAME|FILE");
 
@@ -225,6 +226,9 @@ RenderOptions RenderOptionParser::finish() const {
         options.lights.emplace_back("back");
     }
     requireRange(exposure_, -maxExposure, maxExposure, "--exposure");
+    if (exposure_ != 0 && options.output.extension() == ".exr") {
+        throw UsageError("--exposure is for a PNG; '" + options.output.string() + "' holds the light before exposure");
+    }
     options.exposure = static_cast<float>(exposure_);
     options.cameraPosition = parsePoint(cameraPosition_, "--camera-position");
     options.cameraTarget = parsePoint(cameraTarget_, "--camera-target");
