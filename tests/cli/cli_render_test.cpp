@@ -172,6 +172,12 @@ TEST_F(RenderTest, TheGalleryIsLitFromEitherSide) {
     EXPECT_NE(picture("front.png").pixels, picture("back.png").pixels);
 }
 
+TEST_F(RenderTest, ALightChosenTwiceShinesOnce) {
+    const nlohmann::json all = render({})["scene"]["lights"];
+    EXPECT_EQ(render({"--front", "--back"})["scene"]["lights"], all);
+    EXPECT_EQ(render({"--light", "both", "--back", "--light", all[0]})["scene"]["lights"], all);
+}
+
 TEST_F(RenderTest, EveryModelCanBeLitFromBehind) {
     const nlohmann::json all = render({bunny, "--material", "wax"});
     const nlohmann::json back = render({bunny, "--material", "wax", "--back"});
