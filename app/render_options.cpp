@@ -42,6 +42,7 @@ constexpr std::array aovs{
 };
 
 constexpr double maxExposure = 32;
+constexpr double maxCoordinate = 1e9; // as in scene files
 constexpr std::uint32_t maxSamples = 4;
 constexpr std::uint32_t minShadowMapSize = 16;
 constexpr std::uint32_t maxShadowMapSize = 16384;
@@ -108,6 +109,7 @@ std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& 
         if (!separated || error != std::errc() || !std::isfinite(point[axis]) || (axis == 2 && next != end)) {
             throw UsageError(option + " '" + text + "' is not X,Y,Z, for example 0,1.5,-2");
         }
+        requireRange(point[axis], -maxCoordinate, maxCoordinate, option);
         position = next;
     }
     return point;

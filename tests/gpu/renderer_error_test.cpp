@@ -108,6 +108,9 @@ TEST_F(Errors, ScenesThatDoNotHoldTogether) {
     scene.lights[0].direction = glm::vec3(0);
     expectRefused(scene, plainSettings(), {"light 'sun'", "direction"});
     scene = plane();
+    scene.lights.assign(1025, scene.lights[0]);
+    expectRefused(scene, plainSettings(), {"1025 lights", "1024"});
+    scene = plane();
     scene.metersPerUnit = 0;
     expectRefused(scene, plainSettings(), {"metersPerUnit"});
 }
