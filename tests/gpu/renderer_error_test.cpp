@@ -88,7 +88,9 @@ TEST_F(Errors, Cameras) {
     refuse([](scene::Camera& camera) { camera.target = camera.position; }, "target");
     refuse([](scene::Camera& camera) { camera.verticalFieldOfView = 4; }, "verticalFieldOfView");
     refuse([](scene::Camera& camera) { camera.position.x = std::numeric_limits<float>::quiet_NaN(); }, "position");
-    refuse([](scene::Camera& camera) { camera.nearPlane = 5, camera.farPlane = 1; }, "nearPlane");
+    refuse([](scene::Camera& camera) { camera.nearPlane = 5, camera.farPlane = 1; }, "nearPlane at 5, which is not");
+    refuse([](scene::Camera& camera) { camera.nearPlane = 50; }, "nearPlane at 50, behind the scene");
+    refuse([](scene::Camera& camera) { camera.farPlane = 1e-8f; }, "farPlane at 1e-08, before the scene");
 }
 
 TEST_F(Errors, ScenesThatDoNotHoldTogether) {
