@@ -31,6 +31,8 @@ constexpr Suite suites[] = {
      bench::makeSweepPlan},
     {"pareto", "Error against time, of every technique at every quality", bench::makeParetoPlan}};
 
+constexpr double maxSeconds = 86400;
+
 struct SuiteOptions {
     bench::SuiteSettings suite;
     renderer::DeviceSettings device;
@@ -53,6 +55,7 @@ void writeAll(const bench::Results& results, const Path& folder) {
 }
 
 void runSuite(const Suite& suite, const SuiteOptions& options) {
+    requireRange(options.suite.seconds, 1, maxSeconds, "--seconds");
     const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
     makeFolder(options.folder);
     renderer::Device device(options.device);
@@ -74,7 +77,6 @@ void addSuite(CLI::App& bench, const Suite& suite) {
         ->add_option("--seconds", options->suite.seconds,
                      "Time for measuring; every configuration gets its least number of frames even so")
         ->type_name("N")
-        ->check(CLI::Range(1.0, 86400.0))
         ->capture_default_str();
     command
         ->add_option("-o,--output", options->folder, "Where to leave the results; default " + options->folder.string())
