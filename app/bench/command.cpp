@@ -39,30 +39,50 @@ struct SuiteOptions {
     Path folder;
 };
 
-void makeFolder(const Path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
+/// Where the results go. A folder that was made for them is removed again unless it is kept.
+class ResultsFolder {
+public:
+    explicit ResultsFolder(const Path& folder) : folder_(folder) {
+        std::error_code error;
+        isNew_ = std::filesystem::create_directories(folder, error);
+        if (error) {
+            throw std::runtime_error(folder.string() + ": cannot be made: " + error.message());
+        }
+        checkWritable(folder / "results.json");
     }
-    checkWritable(folder / "results.json");
-}
+    ResultsFolder(const ResultsFolder&) = delete;
+    ~ResultsFolder() {
+        if (isNew_) {
+            std::error_code ignored;
+            std::filesystem::remove_all(folder_, ignored);
+        }
+    }
+    void keep() { isNew_ = false; }
 
-void writeAll(const bench::Results& results, const Path& folder) {
-    writeText(folder / "results.json", bench::formatResults(results));
-    writeText(folder / "results.csv", bench::formatCsv(results));
-    writeText(folder / "report.html", bench::formatReport(results, folder));
+private:
+    Path folder_;
+    bool isNew_ = false;
+};
+
+/// The table and the report, neither of them unless both can be made.
+void writeReport(const bench::Results& results, const Path& folder) {
+    const std::string table = bench::formatCsv(results);
+    const std::string report = bench::formatReport(results, folder);
+    writeText(folder / "results.csv", table);
+    writeText(folder / "report.html", report);
 }
 
 void runSuite(const Suite& suite, const SuiteOptions& options) {
     requireRange(options.suite.seconds, 1, maxSeconds, "--seconds");
     const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
-    makeFolder(options.folder);
+    ResultsFolder folder(options.folder);
     renderer::Device device(options.device);
     say("making the scenes");
     const bench::Plan plan = suite.plan(options.suite);
     const bench::Results results = bench::runPlan(device, plan, options.suite, options.folder, say);
-    writeAll(results, options.folder);
+    writeText(options.folder / "results.json", bench::formatResults(results));
+    folder.keep(); // what has been measured is not thrown away
+    writeReport(results, options.folder);
     std::cout << bench::conclude(results) << '\n' << (options.folder / "report.html").string() << '\n';
 }
 
@@ -110,8 +130,7 @@ void addReport(CLI::App& bench) {
     command->callback([file] {
         const Path folder = file->has_parent_path() ? file->parent_path() : ".";
         const bench::Results results = bench::loadResults(*file);
-        writeText(folder / "results.csv", bench::formatCsv(results));
-        writeText(folder / "report.html", bench::formatReport(results, folder));
+        writeReport(results, folder);
         std::cout << bench::conclude(results) << '\n';
     });
 }
