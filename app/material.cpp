@@ -81,7 +81,7 @@ std::string describe(const Material& material) {
     std::ostringstream text;
     text << material.name << ": " << material.description << '\n'
          << "  strength " << material.strength << ", translucency " << material.translucency << ", scale "
-         << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "pre-and-post")
+         << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost")
          << ", second surfaces " << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness "
          << material.roughness << ", specular " << material.specular << '\n'
          << "  " << std::setw(34) << "" << std::setw(11) << "red" << std::setw(11) << "green" << std::setw(11) << "blue"
