@@ -88,6 +88,8 @@ void runSuite(const Suite& suite, const SuiteOptions& options) {
 
 void addSuite(CLI::App& bench, const Suite& suite) {
     CLI::App* command = bench.add_subcommand(suite.name, suite.help);
+    const std::string example = "  nacre bench " + std::string(suite.name);
+    command->footer("Examples:\n" + example + " --quick\n" + example + " --scene model.glb -o results");
     const auto options = std::make_shared<SuiteOptions>();
     options->folder = std::string("nacre-bench-") += suite.name;
     command->add_flag("--quick", options->suite.quick, "Smaller pictures and fewer frames: minutes without a GPU");
@@ -108,7 +110,10 @@ void addSuite(CLI::App& bench, const Suite& suite) {
 
 void addDiff(CLI::App& bench) {
     CLI::App* command = bench.add_subcommand("diff", "What got slower or less accurate between two runs");
-    command->footer("Ends with 1 when anything did, beyond the noise floor that the runs state.");
+    command->footer(R"(Ends with 1 when anything did, beyond the noise floor that the runs state.
+
+Examples:
+  nacre bench diff old/results.json new/results.json)");
     const auto files = std::make_shared<std::pair<Path, Path>>();
     command->add_option("OLD", files->first, "results.json of the earlier run")->required();
     command->add_option("NEW", files->second, "results.json of the later run")->required();
@@ -125,6 +130,7 @@ void addDiff(CLI::App& bench) {
 
 void addReport(CLI::App& bench) {
     CLI::App* command = bench.add_subcommand("report", "Write the report and the table of a results.json again");
+    command->footer("Examples:\n  nacre bench report nacre-bench-thesis/results.json");
     const auto file = std::make_shared<Path>();
     command->add_option("RESULTS", *file, "results.json, its pictures beside it")->required();
     command->callback([file] {
@@ -137,6 +143,7 @@ void addReport(CLI::App& bench) {
 
 void addMarkdown(CLI::App& bench) {
     CLI::App* command = bench.add_subcommand("markdown", "A results.json as Markdown on standard output");
+    command->footer("Examples:\n  nacre bench markdown nacre-bench-thesis/results.json > thesis.md");
     const auto file = std::make_shared<Path>();
     command->add_option("RESULTS", *file, "results.json")->required();
     command->callback([file] { std::cout << bench::formatMarkdown(bench::loadResults(*file)); });
@@ -147,6 +154,10 @@ void addMarkdown(CLI::App& bench) {
 void addBench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Measure the techniques, and compare measurements");
     command->require_subcommand(1);
+    command->footer(R"(Examples:
+  nacre bench thesis --quick
+  nacre bench pareto --scene model.glb -o results
+  nacre bench diff old/results.json new/results.json)");
     for (const Suite& suite : suites) {
         addSuite(*command, suite);
     }

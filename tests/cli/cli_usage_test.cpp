@@ -132,4 +132,15 @@ TEST_F(UsageTest, HelpOfTheOtherCommands) {
     expectText({"material", "show", "--help"}, {"MATERIAL", "--json"});
 }
 
+TEST_F(UsageTest, HelpOfEveryCommandHasExamplesOfIt) {
+    for (const std::string& command : std::vector<std::string>{
+             "render", "devices", "material", "material list", "material show", "material check", "bench",
+             "bench thesis", "bench sweep", "bench pareto", "bench diff", "bench report", "bench markdown"}) {
+        std::istringstream words(command);
+        std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+        arguments.emplace_back("--help");
+        expectText(arguments, {"Examples:\n", "  nacre " + command});
+    }
+}
+
 } // namespace
