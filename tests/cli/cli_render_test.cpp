@@ -173,9 +173,9 @@ TEST_F(RenderTest, TheGalleryIsLitFromEitherSide) {
 }
 
 TEST_F(RenderTest, ALightChosenTwiceShinesOnce) {
-    const nlohmann::json all = render({})["scene"]["lights"];
-    EXPECT_EQ(render({"--front", "--back"})["scene"]["lights"], all);
-    EXPECT_EQ(render({"--light", "both", "--back", "--light", all[0]})["scene"]["lights"], all);
+    const nlohmann::json all = render({bunny})["scene"]["lights"];
+    EXPECT_EQ(render({bunny, "--front", "--back"})["scene"]["lights"], all);
+    EXPECT_EQ(render({bunny, "--light", "both", "--back", "--light", all[0]})["scene"]["lights"], all);
 }
 
 TEST_F(RenderTest, EveryModelCanBeLitFromBehind) {
