@@ -7,7 +7,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <iostream>
 #include <system_error>
 
@@ -57,6 +59,14 @@ void writeText(const std::filesystem::path& file, std::string_view text) {
         return;
     }
     writeFileAtomically(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void requireRange(double value, double low, double high, const std::string& option) {
+    if (!(value >= low && value <= high)) {
+        std::array<char, 128> text{};
+        std::snprintf(text.data(), text.size(), " %g is outside %g to %g", value, low, high);
+        throw UsageError(option + text.data());
+    }
 }
 
 CLI::Option* addJsonOption(CLI::App& command, std::filesystem::path& file) {

@@ -31,6 +31,9 @@ void checkWritable(const std::filesystem::path& file);
 /// Writes `text` to `file`, whole or not at all; "-" is standard output.
 void writeText(const std::filesystem::path& file, std::string_view text);
 
+/// Throws UsageError, naming the option and its value, unless that is in [low, high].
+void requireRange(double value, double low, double high, const std::string& option);
+
 /// "--json" of every subcommand that has results.
 CLI::Option* addJsonOption(CLI::App& command, std::filesystem::path& file);
 

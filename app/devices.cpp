@@ -50,7 +50,12 @@ void listDevices(const std::filesystem::path& json) {
 
 void addDevices(CLI::App& app) {
     CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices of this machine");
-    command->footer("The number or a part of the name is what `nacre render --device` takes.");
+    command->footer(R"(The number or a part of the name is what `nacre render --device` takes.
+
+Examples:
+  nacre devices
+  nacre devices --json devices.json
+  nacre render --device 0)");
     const auto json = std::make_shared<std::filesystem::path>();
     addJsonOption(*command, *json);
     command->callback([json] { listDevices(*json); });

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -37,6 +38,17 @@ std::string commandLine(const CLI::App& app) {
     return result;
 }
 
+/// An option given an empty value is a mistake of the script that calls us, not an option left out.
+void refuseEmptyValues(CLI::App& app) {
+    for (CLI::Option* option : app.get_options()) {
+        option->check(CLI::Validator(
+            [](std::string& value) { return value.empty() ? "the value is empty" : std::string(); }, ""));
+    }
+    for (CLI::App* command : app.get_subcommands({})) {
+        refuseEmptyValues(*command);
+    }
+}
+
 int run(CLI::App& app, int argumentCount, char** arguments) {
     try {
         app.parse(argumentCount, arguments);
@@ -60,6 +72,7 @@ int run(CLI::App& app, int argumentCount, char** arguments) {
 } // namespace
 
 int main(int argumentCount, char** arguments) {
+    std::signal(SIGXFSZ, SIG_IGN); // so that writing too large a file fails with a reason
     try {
         CLI::App app("Nacre renders light that travels under a surface: skin, marble, wax, jade, leaves.", "nacre");
         app.set_version_flag("--version", "nacre " NACRE_VERSION);
@@ -68,6 +81,7 @@ int main(int argumentCount, char** arguments) {
         nacre::app::addMaterial(app);
         nacre::app::addDevices(app);
         nacre::app::addBench(app);
+        refuseEmptyValues(app);
         return run(app, argumentCount, arguments);
     } catch (const nacre::app::UsageError& error) {
         return complain(error.what(), wrongUsage);

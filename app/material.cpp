@@ -81,7 +81,7 @@ std::string describe(const Material& material) {
     std::ostringstream text;
     text << material.name << ": " << material.description << '\n'
          << "  strength " << material.strength << ", translucency " << material.translucency << ", scale "
-         << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "pre-and-post")
+         << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost")
          << ", second surfaces " << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness "
          << material.roughness << ", specular " << material.specular << '\n'
          << "  " << std::setw(34) << "" << std::setw(11) << "red" << std::setw(11) << "green" << std::setw(11) << "blue"
@@ -110,6 +110,7 @@ void checkMaterials(const std::vector<std::filesystem::path>& files) {
 
 void addList(CLI::App& material) {
     CLI::App* command = material.add_subcommand("list", "List the presets");
+    command->footer("Examples:\n  nacre material list\n  nacre material list --json presets.json");
     const auto json = std::make_shared<std::filesystem::path>();
     addJsonOption(*command, *json);
     command->callback([json] { listMaterials(*json); });
@@ -117,7 +118,9 @@ void addList(CLI::App& material) {
 
 void addShow(CLI::App& material) {
     CLI::App* command = material.add_subcommand("show", "Say what a material does, or write it as a material file");
-    command->footer("Example, to start a material of one's own:\n  nacre material show skin --json my-skin.json");
+    command->footer(R"(Examples:
+  nacre material show skin
+  nacre material show skin --json my-skin.json          to start a material of one's own)");
     const auto nameOrFile = std::make_shared<std::string>();
     const auto json = std::make_shared<std::filesystem::path>();
     command->add_option("MATERIAL", *nameOrFile, "A preset's name or a material file")->required()->type_name("");
@@ -127,6 +130,7 @@ void addShow(CLI::App& material) {
 
 void addCheck(CLI::App& material) {
     CLI::App* command = material.add_subcommand("check", "Check material files: exit code 0 when all are valid");
+    command->footer("Examples:\n  nacre material check my-skin.json\n  nacre material check materials/*.json");
     const auto files = std::make_shared<std::vector<std::filesystem::path>>();
     command->add_option("FILE", *files, "Material files (docs/schemas/material.schema.json)")
         ->required()
@@ -139,6 +143,11 @@ void addCheck(CLI::App& material) {
 void addMaterial(CLI::App& app) {
     CLI::App* command = app.add_subcommand("material", "List, show and check subsurface materials");
     command->require_subcommand(1);
+    command->footer(R"(Examples:
+  nacre material list
+  nacre material show skin --json my-skin.json
+  nacre material check my-skin.json
+  nacre render bunny.obj --material my-skin.json)");
     addList(*command);
     addShow(*command);
     addCheck(*command);

@@ -16,9 +16,23 @@ namespace nacre::app {
 
 namespace {
 
-void writePicture(const std::filesystem::path& file, const renderer::Renderer& renderer) {
+/// The mean of every pixel's samples x samples values.
+renderer::Pixels resolve(const renderer::Pixels& source, std::uint32_t samples) {
+    const std::size_t channels = source.channels.size();
+    renderer::Pixels result{source.width / samples, source.height / samples, source.channels, {}};
+    result.values.resize(std::size_t{result.width} * result.height * channels);
+    const float share = 1 / static_cast<float>(samples * samples);
+    for (std::size_t i = 0; i < source.values.size(); ++i) {
+        const std::size_t x = i / channels % source.width / samples;
+        const std::size_t y = i / channels / source.width / samples;
+        result.values[(y * result.width + x) * channels + i % channels] += share * source.values[i];
+    }
+    return result;
+}
+
+void writePicture(const std::filesystem::path& file, const renderer::Renderer& renderer, std::uint32_t samples) {
     if (file.extension() == ".exr") {
-        const renderer::Pixels pixels = renderer.read(renderer::Output::Radiance);
+        const renderer::Pixels pixels = resolve(renderer.read(renderer::Output::Radiance), samples);
         scene::writeExr(file, pixels.width, pixels.height, pixels.channels, pixels.values);
         return;
     }
@@ -73,7 +87,7 @@ void render(const RenderOptions& options) {
         const Progress progress("rendering " + sceneName(options));
         renderer::Renderer renderer(device, scene, options.settings);
         renderer.render(camera);
-        writePicture(options.output, renderer);
+        writePicture(options.output, renderer, options.settings.samples);
         for (const AovOutput& aov : options.aovs) {
             writeAov(aov, renderer);
         }

@@ -42,6 +42,7 @@ constexpr std::array aovs{
 };
 
 constexpr double maxExposure = 32;
+constexpr double maxCoordinate = 1e9; // as in scene files
 constexpr std::uint32_t maxSamples = 4;
 constexpr std::uint32_t minShadowMapSize = 16;
 constexpr std::uint32_t maxShadowMapSize = 16384;
@@ -108,17 +109,22 @@ std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& 
         if (!separated || error != std::errc() || !std::isfinite(point[axis]) || (axis == 2 && next != end)) {
             throw UsageError(option + " '" + text + "' is not X,Y,Z, for example 0,1.5,-2");
         }
+        requireRange(point[axis], -maxCoordinate, maxCoordinate, option);
         position = next;
     }
     return point;
 }
 
-void requireRange(double value, double low, double high, const std::string& option) {
-    if (!(value >= low && value <= high)) {
-        std::array<char, 128> text{};
-        std::snprintf(text.data(), text.size(), " %g is outside %g to %g", value, low, high);
-        throw UsageError(option + text.data());
+/// Whether both names lead to one file, if need be through links.
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
+    std::error_code error;
+    if (std::filesystem::equivalent(one, other, error)) {
+        return true;
     }
+    const auto place = [&](const std::filesystem::path& file) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    };
+    return place(one) == place(other);
 }
 
 /// No output may replace another one or the input.
@@ -126,13 +132,12 @@ void requireDistinctFiles(const RenderOptions& options) {
     std::vector<std::filesystem::path> files{options.input, options.material, options.output, options.json};
     std::ranges::transform(options.aovs, std::back_inserter(files), &AovOutput::file);
     std::erase(files, std::filesystem::path());
-    std::ranges::transform(files, files.begin(), [](const std::filesystem::path& file) {
-        return std::filesystem::absolute(file).lexically_normal();
-    });
-    std::ranges::sort(files);
-    const auto twin = std::ranges::adjacent_find(files);
-    if (twin != files.end()) {
-        throw UsageError("the same file is given twice: '" + twin->string() + "'");
+    for (auto file = files.begin(); file != files.end(); ++file) {
+        const auto twin =
+            std::find_if(files.begin(), file, [&](const auto& other) { return isSameFile(*file, other); });
+        if (twin != file) {
+            throw UsageError("the same file is given twice: '" + twin->string() + "' and '" + file->string() + "'");
+        }
     }
 }
 
@@ -145,7 +150,10 @@ std::string_view techniqueName(Technique technique) {
 RenderOptionParser::RenderOptionParser(CLI::App& command) {
     const auto add = [&command](const std::string& group, const std::string& name, auto& value,
                                 const std::string& description, const std::string& type) {
-        command.add_option(name, value, description)->type_name(type)->group(group);
+        command.add_option(name, value, description)
+            ->type_name(type)
+            ->group(group)
+            ->allow_extra_args(false); // one value each time, so that a scene may follow it
     };
     const auto addFlag = [&command](const std::string& group, const std::string& name, bool& value,
                                     const std::string& description) {
@@ -156,13 +164,14 @@ RenderOptionParser::RenderOptionParser(CLI::App& command) {
 
     const std::string picture = "Picture";
     add(picture, "-o,--output", options_.output,
-        "FILE.png (sRGB) or FILE.exr (linear); default " + options_.output.string(), "FILE");
+        "FILE.png (sRGB) or FILE.exr (linear, before exposure and tone curve); default " + options_.output.string(),
+        "FILE");
     add(picture, "--size", size_, "Pixels; default " + size_, "WxH");
     add(picture, "--samples", options_.settings.samples,
         "Samples per axis of a pixel, 1 to " + std::to_string(maxSamples) + "; AOVs have a pixel for each; default " +
             std::to_string(options_.settings.samples),
         "N");
-    add(picture, "--exposure", exposure_, "Brighter (> 0) or darker (< 0) by powers of two", "EV");
+    add(picture, "--exposure", exposure_, "Make a PNG brighter (> 0) or darker (< 0) by powers of two", "EV");
     add(picture, "--material", options_.material, "Give every body this material: a preset or a material file",
         "NAME|FILE");
 
@@ -219,6 +228,9 @@ RenderOptions RenderOptionParser::finish() const {
         options.lights.emplace_back("back");
     }
     requireRange(exposure_, -maxExposure, maxExposure, "--exposure");
+    if (exposure_ != 0 && options.output.extension() == ".exr") {
+        throw UsageError("--exposure is for a PNG; '" + options.output.string() + "' holds the light before exposure");
+    }
     options.exposure = static_cast<float>(exposure_);
     options.cameraPosition = parsePoint(cameraPosition_, "--camera-position");
     options.cameraTarget = parsePoint(cameraTarget_, "--camera-target");

@@ -39,25 +39,33 @@ Side sideOf(const Light& light, const Camera& camera, const glm::vec3& center) {
     return glm::dot(travel, camera.target - camera.position) >= 0 ? Side::Front : Side::Back;
 }
 
-std::vector<Light> lightsOn(Side side, const Scene& scene, const Camera& camera) {
-    const glm::vec3 center = scene::bounds(scene).center();
-    std::vector<Light> result;
-    std::ranges::copy_if(scene.lights, std::back_inserter(result), [&](const Light& light) {
-        return side == Side::Both || sideOf(light, camera, center) == side;
-    });
-    return result;
+std::vector<Light> builtInLights(const Scene& scene) {
+    Scene bare;
+    bare.cameras = scene.cameras; // at least one; the lights go with it
+    scene::addMissingViewAndLights(bare);
+    return bare.lights;
 }
 
-/// The scene's lights on that side, or the built-in ones where it has none there.
-std::vector<Light> someLightsOn(Side side, const Scene& scene, const Camera& camera) {
-    std::vector<Light> lights = lightsOn(side, scene, camera);
-    if (lights.empty()) {
-        Scene bare = scene;
-        bare.lights.clear();
-        scene::addMissingViewAndLights(bare);
-        lights = lightsOn(side, bare, camera);
+/// Marks the lights on that side; false when there is none.
+bool markSide(Side side, const std::vector<Light>& lights, const Camera& camera, const glm::vec3& center,
+              std::vector<bool>& marks) {
+    bool any = false;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const bool isThere = side == Side::Both || sideOf(lights[i], camera, center) == side;
+        marks[i] = marks[i] || isThere;
+        any = any || isThere;
     }
-    return lights;
+    return any;
+}
+
+std::vector<Light> marked(const std::vector<Light>& lights, const std::vector<bool>& marks) {
+    std::vector<Light> result;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (marks[i]) {
+            result.push_back(lights[i]);
+        }
+    }
+    return result;
 }
 
 template <typename Item> std::string listNames(const std::vector<Item>& items) {
@@ -98,10 +106,15 @@ void chooseLights(const RenderOptions& options, Scene& scene) {
         return;
     }
     const Camera camera = makeCamera(options, scene);
-    std::vector<Light> chosen;
+    const glm::vec3 center = scene::bounds(scene).center();
+    const std::vector<Light> builtIn = builtInLights(scene);
+    std::vector<bool> chosen(scene.lights.size()); // so that what is named twice shines once
+    std::vector<bool> added(builtIn.size());
     for (const std::string& name : options.lights) {
         if (const std::optional<Side> side = sideNamed(name)) {
-            std::ranges::copy(someLightsOn(*side, scene, camera), std::back_inserter(chosen));
+            if (!markSide(*side, scene.lights, camera, center, chosen)) {
+                markSide(*side, builtIn, camera, center, added);
+            }
             continue;
         }
         const auto light = std::ranges::find(scene.lights, name, &Light::name);
@@ -109,9 +122,10 @@ void chooseLights(const RenderOptions& options, Scene& scene) {
             throw std::runtime_error(sceneName(options) + ": has no light '" + name + "', only " +
                                      listNames(scene.lights));
         }
-        chosen.push_back(*light);
+        chosen[static_cast<std::size_t>(light - scene.lights.begin())] = true;
     }
-    scene.lights = std::move(chosen);
+    scene.lights = marked(scene.lights, chosen);
+    std::ranges::copy(marked(builtIn, added), std::back_inserter(scene.lights));
 }
 
 std::string sceneName(const RenderOptions& options) {

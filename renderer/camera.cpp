@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 namespace nacre::renderer {
@@ -18,6 +19,12 @@ constexpr float margin = 0.01f;
 
 bool finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+std::string format(float value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
 }
 
 void check(bool condition, const scene::Camera& camera, const std::string& fault) {
@@ -35,12 +42,25 @@ void check(const scene::Camera& camera, float aspect) {
           "has an offCenter that is not finite");
     if (camera.projection == scene::ProjectionKind::Perspective) {
         check(camera.verticalFieldOfView > 0 && camera.verticalFieldOfView < std::numbers::pi_v<float>, camera,
-              "has a verticalFieldOfView of " + std::to_string(camera.verticalFieldOfView) +
+              "has a verticalFieldOfView of " + format(camera.verticalFieldOfView) +
                   ", which must lie between 0 and pi");
     } else {
         check(camera.orthographicHeight > 0 && std::isfinite(camera.orthographicHeight), camera,
-              "has an orthographicHeight of " + std::to_string(camera.orthographicHeight) + ", which must be above 0");
+              "has an orthographicHeight of " + format(camera.orthographicHeight) + ", which must be above 0");
     }
+}
+
+/// What is wrong with planes of which at least one is the camera's own.
+std::string describePlanes(const View& view, const scene::Camera& camera) {
+    const std::string nearPlane = format(view.nearPlane);
+    const std::string farPlane = format(view.farPlane);
+    if (!(camera.farPlane > 0)) {
+        return "has its nearPlane at " + nearPlane + ", behind the scene, which ends at " + farPlane;
+    }
+    if (!(camera.nearPlane > 0)) {
+        return "has its farPlane at " + farPlane + ", before the scene, which begins at " + nearPlane;
+    }
+    return "has its nearPlane at " + nearPlane + ", which is not before its farPlane at " + farPlane;
 }
 
 void fitPlanes(View& view, const scene::Camera& camera, const scene::Bounds& bounds) {
@@ -57,9 +77,7 @@ void fitPlanes(View& view, const scene::Camera& camera, const scene::Bounds& bou
     view.farPlane = camera.farPlane > 0 ? camera.farPlane : std::max(farthest + margin * extent, margin * extent);
     view.nearPlane = camera.nearPlane > 0 ? camera.nearPlane
                                           : std::max(nearest - margin * extent, smallestNearToFar * view.farPlane);
-    check(view.nearPlane < view.farPlane, camera,
-          "has its nearPlane at " + std::to_string(view.nearPlane) + " behind its farPlane at " +
-              std::to_string(view.farPlane));
+    check(view.nearPlane < view.farPlane, camera, describePlanes(view, camera));
 }
 
 } // namespace

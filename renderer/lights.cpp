@@ -198,6 +198,10 @@ void check(const scene::Light& light) {
 } // namespace
 
 LightSet placeLights(const scene::Scene& scene, std::uint32_t shadowMapSize) {
+    if (scene.lights.size() > maxLights) {
+        throw RendererError("the scene has " + std::to_string(scene.lights.size()) + " lights, and may have at most " +
+                            std::to_string(maxLights));
+    }
     std::vector<Points> instances;
     for (const scene::Instance& instance : scene.instances) {
         instances.push_back(worldPoints(scene, instance));

@@ -11,6 +11,9 @@
 
 namespace nacre::renderer {
 
+/// Most lights of a scene, as NacreContextInfo::maxLights.
+inline constexpr std::size_t maxLights = 1024;
+
 /// A light and the conventions of its shadow map; the fields are NacreLight's (include/nacre/nacre.h).
 struct PlacedLight {
     scene::LightKind kind = scene::LightKind::Directional;
@@ -32,7 +35,7 @@ struct LightSet {
 
 /// Places every light of the scene. A directional light's map is square in world space and fits what can throw a
 /// shadow; a spot's covers its cone; a point light has six faces. `shadowMapSize` [px] sets the margin the filter
-/// needs.
+/// needs. Throws RendererError for more than maxLights, and for a light with faulty values.
 LightSet placeLights(const scene::Scene& scene, std::uint32_t shadowMapSize);
 
 shared::LightConstants makeConstants(const PlacedLight& light, float metersPerUnit);

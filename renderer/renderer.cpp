@@ -163,7 +163,7 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
                       [&] {
                           return Subsurface(gpu,
                                             {extent, framesInFlight, 1 + settings.effectRepetitions, metersPerUnit,
-                                             settings.thickness},
+                                             settings.thickness, settings.technique},
                                             input.materials, lights.lights);
                       })),
       compose(part("compose and tone map",

@@ -29,11 +29,6 @@ NacreTechnique convert(Technique technique) {
     return NACRE_TECHNIQUE_DEFAULT;
 }
 
-/// All but bank-surfaces, whose memory and pipelines not every picture needs.
-constexpr std::uint32_t startingTechniques = 1u << NACRE_TECHNIQUE_DEFAULT | 1u << NACRE_TECHNIQUE_BANK |
-                                             1u << NACRE_TECHNIQUE_SEPARABLE | 1u << NACRE_TECHNIQUE_BURLEY |
-                                             1u << NACRE_TECHNIQUE_THESIS | 1u << NACRE_TECHNIQUE_BRUTE;
-
 /// The materials, once each is known to be valid.
 const std::vector<Material>& checked(const std::vector<Material>& materials) {
     for (const Material& material : materials) {
@@ -44,9 +39,12 @@ const std::vector<Material>& checked(const std::vector<Material>& materials) {
     return materials;
 }
 
-/// Those that materials, which are valid, ask for besides.
-std::uint32_t techniquesOf(const std::vector<Material>& materials) {
-    return std::ranges::any_of(materials, asksForSecondSurfaces) ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0;
+/// NacreContextInfo::techniques for this technique, and for the one that materials, which are valid, ask for in its
+/// place.
+std::uint32_t techniquesFor(Technique technique, const std::vector<Material>& materials) {
+    const bool asks = (technique == Technique::Default || technique == Technique::Bank) &&
+                      std::ranges::any_of(materials, asksForSecondSurfaces);
+    return 1u << convert(technique) | (asks ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0);
 }
 
 void copy(float (&target)[3], const glm::vec3& value) {
@@ -129,10 +127,7 @@ vk::ImageUsageFlags effectUsage(NacreImageSlot slot) {
 
 Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
                        const std::vector<PlacedLight>& lights)
-    : info_(info),
-      materials_(checked(materials)),
-      techniques_(startingTechniques | techniquesOf(materials_)),
-      message_(std::make_unique<std::string>()) {
+    : info_(info), materials_(checked(materials)), message_(std::make_unique<std::string>()) {
     std::transform(lights.begin(), lights.end(), std::back_inserter(lights_),
                    [](const PlacedLight& light) { return convert(light); });
     constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
@@ -143,11 +138,11 @@ Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& 
     }
     translucencies_ = Buffer(gpu, "translucencies", (materials.size() + 1) * sizeof(float),
                              vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
-    createContext(gpu);
+    createContext(gpu, techniquesFor(info.technique, materials));
     setMaterials(materials);
 }
 
-void Subsurface::createContext(Gpu& gpu) {
+void Subsurface::createContext(Gpu& gpu, std::uint32_t techniques) {
     NacreContextInfo contextInfo{};
     contextInfo.headerVersion = NACRE_HEADER_VERSION;
     contextInfo.instance = *gpu.instance;
@@ -155,7 +150,7 @@ void Subsurface::createContext(Gpu& gpu) {
     contextInfo.device = *gpu.device;
     contextInfo.getInstanceProcAddr = gpu.context.getDispatcher()->vkGetInstanceProcAddr;
     contextInfo.maxExtent = info_.extent;
-    contextInfo.techniques = techniques_;
+    contextInfo.techniques = techniques;
     contextInfo.framesInFlight = info_.framesInFlight;
     contextInfo.recordsPerFrame = info_.recordsPerFrame;
     contextInfo.maxMaterials = std::max(1u, static_cast<std::uint32_t>(materials_.size()));
@@ -166,6 +161,7 @@ void Subsurface::createContext(Gpu& gpu) {
     NacreContext context = nullptr;
     check(nacreCreateContext(&contextInfo, &context));
     context_.reset(context);
+    techniques_ = techniques;
 }
 
 void Subsurface::check(NacreResult result) const {
@@ -252,10 +248,9 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
 }
 
 void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
-    const std::uint32_t needed = 1u << convert(settings.technique) | techniquesOf(materials_);
-    if ((techniques_ & needed) != needed) {
-        techniques_ |= needed;
-        createContext(gpu);
+    const std::uint32_t needed = techniques_ | techniquesFor(settings.technique, materials_);
+    if (needed != techniques_) {
+        createContext(gpu, needed);
         setMaterials(materials_);
     }
     const bool bakes = settings.technique == Technique::Thesis && settings.thesisBakedKernel && !materials_.empty();

@@ -22,7 +22,8 @@ public:
         std::uint32_t framesInFlight = 1;
         std::uint32_t recordsPerFrame = 1; ///< of the effect
         float metersPerUnit = 1;
-        bool thickness = false; ///< RenderSettings::thickness
+        bool thickness = false;                   ///< RenderSettings::thickness
+        Technique technique = Technique::Default; ///< the first; prepareSettings adds others
     };
 
     Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
@@ -70,7 +71,8 @@ private:
     };
 
     void check(NacreResult result) const;
-    void createContext(Gpu& gpu);
+    /// Replaces the context, if there is one, by one for these techniques.
+    void createContext(Gpu& gpu, std::uint32_t techniques);
     NacreView makeView(const View& view) const;
 
     Info info_;
@@ -81,7 +83,7 @@ private:
     Buffer translucencies_;
     std::vector<Material> materials_;
     bool scatteredHasAlbedo_ = false;
-    std::uint32_t techniques_;                 ///< NacreContextInfo::techniques
+    std::uint32_t techniques_ = 0;             ///< NacreContextInfo::techniques
     std::optional<std::uint32_t> bakedRadius_; ///< of the first material as it is
     std::unique_ptr<std::string> message_;     ///< the effect's last error; its address is known to the context
     std::unique_ptr<NacreContext_T, Destroy> context_;

@@ -2,6 +2,7 @@
 
 #include "scene/file.hpp"
 #include "scene/gltf.hpp"
+#include "scene/gltf_types.hpp"
 
 #include <algorithm>
 #include <array>
@@ -330,6 +331,7 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
         file.images.push_back(readImage(file, images[i], "images[" + std::to_string(i) + "]"));
     }
     document.erase("animations");
+    checkGltfTypes(file, document);
     dropDracoIndices(document);
     completeSkins(document);
     parseModel(file, document);

@@ -71,7 +71,8 @@ Texture decodeTexture(std::span<const std::uint8_t> bytes, const std::string& na
     int height = 0;
     int channels = 0;
     const int size = static_cast<int>(bytes.size());
-    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width <= 0 || height <= 0) {
+    if (stbi_is_hdr_from_memory(bytes.data(), size) != 0 || // of which stb_image would make 8 bits
+        stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width <= 0 || height <= 0) {
         throw SceneError(name + ": is not a readable PNG, JPEG, BMP, TGA or PSD image of at most " +
                          std::to_string(maxImageSide) + " pixels a side");
     }

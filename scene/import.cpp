@@ -66,7 +66,7 @@ Scene load(const std::filesystem::path& file) {
     const Format format = formatOf(file, bytes);
     Scene scene = format == Format::SceneFile ? readSceneFile(file, bytes) : readModel(file, bytes, format);
     if (format != Format::SceneFile) {
-        fitExposure(scene);
+        fitLights(scene);
     }
     addMissingViewAndLights(scene);
     return scene;

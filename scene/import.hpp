@@ -10,7 +10,7 @@ inline constexpr const char* unitNote = "does not state its unit";
 
 /// Reads a model (glTF 2.0, GLB, or any format Assimp knows) or a scene file (JSON, docs/schemas/scene.schema.json),
 /// told apart by content. A model without camera or lights gets a fitted camera and a three-point light set; one with
-/// lights an exposure that goes with them.
+/// lights has them dimmed or brightened where needed (`fitLights`).
 /// Throws SceneError with one sentence that names the file and the field.
 Scene load(const std::filesystem::path& file);
 
@@ -21,9 +21,10 @@ Scene loadModel(const std::filesystem::path& file);
 /// back light (when it has none).
 void addMissingViewAndLights(Scene& scene);
 
-/// Chooses an exposure that goes with the scene's own lights, where they would leave a white surface in the middle of
-/// the scene more than four times too bright or too dark (exporters write anything from 1 to 100,000 lux).
-void fitExposure(Scene& scene);
+/// Scales the lights' intensities, all by the same factor, where they would leave a white surface in the middle of the
+/// scene more than four times too bright or too dark: exporters write anything from 1 to 100,000 lux, the renderer
+/// keeps light in half floats, and the sky and the built-in lights are of the order of 1.
+void fitLights(Scene& scene);
 
 /// Gives a surface of the scene the subsurface material of that index (or `none`), with its albedo, roughness and
 /// specular where the surface has no texture for them.

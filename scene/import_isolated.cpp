@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <type_traits>
@@ -166,7 +167,16 @@ void silence() {
     }
 }
 
-[[noreturn]] void runChild(int pipe, const ImportLimits& limits, const std::function<Scene()>& read) {
+/// Ends the child when its parent ends, however that happens.
+void followParent(pid_t parent) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) { // has ended already
+        ::_exit(EIO);
+    }
+}
+
+[[noreturn]] void runChild(pid_t parent, int pipe, const ImportLimits& limits, const std::function<Scene()>& read) {
+    followParent(parent);
     silence();
     limitResources(limits);
     Writer writer;
@@ -242,6 +252,7 @@ Scene runIsolated(const std::string& name, const ImportLimits& limits, const std
     if (::pipe(pipes) != 0) {
         throw SceneError(name + ": cannot be read: " + std::strerror(errno));
     }
+    const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child < 0) {
         const int error = errno;
@@ -251,7 +262,7 @@ Scene runIsolated(const std::string& name, const ImportLimits& limits, const std
     }
     if (child == 0) {
         ::close(pipes[0]);
-        runChild(pipes[1], limits, read);
+        runChild(parent, pipes[1], limits, read);
     }
     ::close(pipes[1]);
     Bytes bytes;

@@ -77,14 +77,15 @@ void addMissingViewAndLights(Scene& scene) {
     }
 }
 
-void fitExposure(Scene& scene) {
+void fitLights(Scene& scene) {
     const float irradiance = irradianceInTheMiddle(scene);
     constexpr float white = std::numbers::pi_v<float>; // makes a white surface's radiance 1
     constexpr float tolerated = 4;
     if (std::isfinite(irradiance) && irradiance > 0 &&
         (irradiance > white * tolerated || irradiance < white / tolerated)) {
-        scene.exposure = white / irradiance;
-        scene.environment.intensity = irradiance / white; // the sky is ours: it stays as bright as it looks
+        for (Light& light : scene.lights) {
+            light.intensity *= white / irradiance;
+        }
     }
 }
 

@@ -19,15 +19,9 @@ std::string format(double value) {
 }
 
 std::string describe(const NumberRange& range) {
-    const NumberRange any;
-    if (range.high != any.high) {
-        return (range.lowExcluded ? "above " + format(range.low) + " and at most " : format(range.low) + " to ") +
-               format(range.high);
-    }
-    if (range.low == any.low) {
-        return "a number from " + format(any.low) + " to " + format(any.high);
-    }
-    return (range.lowExcluded ? "> " : ">= ") + format(range.low);
+    const std::string low = format(range.low);
+    return "a number " + (range.lowExcluded ? "above " + low + " and at most " : "from " + low + " to ") +
+           format(range.high);
 }
 
 std::string shorten(const Json& value) {

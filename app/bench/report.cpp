@@ -51,7 +51,12 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
-std::string picture(const std::filesystem::path& file, const std::string& name, const char* role) {
+std::string picture(const std::filesystem::path& folder, const std::string& fileName, const std::string& name,
+                    const char* role) {
+    const std::filesystem::path file = folder / fileName;
+    if (std::filesystem::weakly_canonical(file).parent_path() != std::filesystem::weakly_canonical(folder)) {
+        throw FileError(file.string() + ": is not beside results.json, as a report's pictures are");
+    }
     const char* type = file.extension() == ".png" ? "image/png" : "image/jpeg";
     return "<img class=\"" + std::string(role) + "\" alt=\"" + escapeHtml(name) + "\" src=\"data:" + type + ";base64," +
            base64(readFile(file, maxPictureBytes)) + "\">";
@@ -59,8 +64,8 @@ std::string picture(const std::filesystem::path& file, const std::string& name, 
 
 std::string figure(const ImagePair& pair, const std::filesystem::path& folder) {
     return "<figure class=\"pair\"><h3>" + escapeHtml(pair.title) + "</h3><div class=\"stage\">" +
-           picture(folder / pair.beforeFile, pair.before, "before") +
-           picture(folder / pair.afterFile, pair.after, "after") +
+           picture(folder, pair.beforeFile, pair.before, "before") +
+           picture(folder, pair.afterFile, pair.after, "after") +
            "</div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"" + escapeHtml(pair.title) +
            "\"><div class=\"names\"><span>" + escapeHtml(pair.before) + "</span><span>" + escapeHtml(pair.after) +
            "</span></div></figure>\n";

@@ -4,9 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -20,33 +23,43 @@ constexpr const char* formatName = "nacre-benchmark";
 constexpr int formatVersion = 1;
 constexpr std::uint64_t maxResultsBytes = std::uint64_t{256} << 20;
 
+/// What a number may be, as the schema has it.
+struct Range {
+    double low = std::numeric_limits<double>::lowest();
+    double high = std::numeric_limits<double>::max();
+};
+constexpr Range nonNegative{.low = 0};
+constexpr Range unitInterval{.low = 0, .high = 1};
+
 template <typename Struct, typename Type> struct Key {
     const char* name;
     Type Struct::*member;
+    Range range{};
 };
 template <typename Struct, typename Type> Key(const char*, Type Struct::*) -> Key<Struct, Type>;
+template <typename Struct, typename Type> Key(const char*, Type Struct::*, Range) -> Key<Struct, Type>;
 
 // Every struct's keys, in the order of the file.
 template <typename Struct> constexpr auto keys = nullptr;
 template <>
-constexpr auto keys<Summary> = std::tuple{Key{"count", &Summary::count},
-                                          Key{"median", &Summary::median},
-                                          Key{"p5", &Summary::p5},
-                                          Key{"p95", &Summary::p95},
-                                          Key{"low", &Summary::low},
-                                          Key{"high", &Summary::high},
-                                          Key{"confidence", &Summary::confidence}};
+constexpr auto keys<Summary> = std::tuple{Key{"count", &Summary::count, Range{.low = 1}},
+                                          Key{"median", &Summary::median, nonNegative},
+                                          Key{"p5", &Summary::p5, nonNegative},
+                                          Key{"p95", &Summary::p95, nonNegative},
+                                          Key{"low", &Summary::low, nonNegative},
+                                          Key{"high", &Summary::high, nonNegative},
+                                          Key{"confidence", &Summary::confidence, unitInterval}};
 template <>
-constexpr auto keys<Line> = std::tuple{Key{"count", &Line::count},
+constexpr auto keys<Line> = std::tuple{Key{"count", &Line::count, Range{.low = 3}},
                                        Key{"slope", &Line::slope},
                                        Key{"slopeLow", &Line::slopeLow},
                                        Key{"slopeHigh", &Line::slopeHigh},
                                        Key{"intercept", &Line::intercept},
-                                       Key{"rSquared", &Line::rSquared},
+                                       Key{"rSquared", &Line::rSquared, Range{.high = 1}},
                                        Key{"robustSlope", &Line::robustSlope}};
 template <>
-constexpr auto keys<Clock> =
-    std::tuple{Key{"name", &Clock::name}, Key{"before", &Clock::before}, Key{"after", &Clock::after}};
+constexpr auto keys<Clock> = std::tuple{Key{"name", &Clock::name}, Key{"before", &Clock::before, nonNegative},
+                                        Key{"after", &Clock::after, nonNegative}};
 template <>
 constexpr auto keys<Machine> =
     std::tuple{Key{"device", &Machine::device},       Key{"kind", &Machine::kind},
@@ -56,20 +69,21 @@ constexpr auto keys<Machine> =
 template <>
 constexpr auto keys<Procedure> =
     std::tuple{Key{"quick", &Procedure::quick}, Key{"warmUpFrames", &Procedure::warmUpFrames},
-               Key{"repetitions", &Procedure::repetitions}, Key{"seconds", &Procedure::seconds}};
+               Key{"repetitions", &Procedure::repetitions}, Key{"seconds", &Procedure::seconds, nonNegative}};
 template <>
 constexpr auto keys<PassResult> = std::tuple{Key{"name", &PassResult::name}, Key{"time", &PassResult::time}};
 template <> constexpr auto keys<MemoryUse> = std::tuple{Key{"name", &MemoryUse::name}, Key{"bytes", &MemoryUse::bytes}};
 template <>
-constexpr auto keys<ImageError> = std::tuple{Key{"psnr", &ImageError::psnr}, Key{"relMse", &ImageError::relMse},
-                                             Key{"energyRatio", &ImageError::energyRatio}};
+constexpr auto keys<ImageError> = std::tuple{Key{"psnr", &ImageError::psnr, Range{.low = 0, .high = 200}},
+                                             Key{"relMse", &ImageError::relMse, nonNegative},
+                                             Key{"energyRatio", &ImageError::energyRatio, nonNegative}};
 template <>
 constexpr auto keys<Measurement> = std::tuple{Key{"id", &Measurement::id},
                                               Key{"series", &Measurement::series},
                                               Key{"view", &Measurement::view},
                                               Key{"technique", &Measurement::technique},
-                                              Key{"width", &Measurement::width},
-                                              Key{"height", &Measurement::height},
+                                              Key{"width", &Measurement::width, Range{.low = 1}},
+                                              Key{"height", &Measurement::height, Range{.low = 1}},
                                               Key{"variable", &Measurement::variable},
                                               Key{"unit", &Measurement::unit},
                                               Key{"value", &Measurement::value},
@@ -79,28 +93,33 @@ constexpr auto keys<Measurement> = std::tuple{Key{"id", &Measurement::id},
                                               Key{"repetitions", &Measurement::repetitions},
                                               Key{"recording", &Measurement::recording},
                                               Key{"passes", &Measurement::passes},
-                                              Key{"passShare", &Measurement::passShare},
+                                              Key{"passShare", &Measurement::passShare, nonNegative},
                                               Key{"copyBytes", &Measurement::copyBytes},
-                                              Key{"coverage", &Measurement::coverage},
-                                              Key{"footprint", &Measurement::footprint},
+                                              Key{"coverage", &Measurement::coverage, unitInterval},
+                                              Key{"footprint", &Measurement::footprint, nonNegative},
                                               Key{"triangles", &Measurement::triangles},
                                               Key{"lights", &Measurement::lights},
                                               Key{"materials", &Measurement::materials},
                                               Key{"layers", &Measurement::layers},
                                               Key{"dispatches", &Measurement::dispatches},
                                               Key{"memory", &Measurement::memory},
-                                              Key{"noise", &Measurement::noise},
+                                              Key{"noise", &Measurement::noise, nonNegative},
                                               Key{"error", &Measurement::error}};
 template <>
 constexpr auto keys<NoiseFloor> =
     std::tuple{Key{"id", &NoiseFloor::id}, Key{"series", &NoiseFloor::series}, Key{"first", &NoiseFloor::first},
-               Key{"second", &NoiseFloor::second}, Key{"share", &NoiseFloor::share}};
+               Key{"second", &NoiseFloor::second}, Key{"share", &NoiseFloor::share, nonNegative}};
 template <>
-constexpr auto keys<Fit> = std::tuple{Key{"series", &Fit::series},     Key{"technique", &Fit::technique},
-                                      Key{"width", &Fit::width},       Key{"height", &Fit::height},
-                                      Key{"variable", &Fit::variable}, Key{"unit", &Fit::unit},
-                                      Key{"quantity", &Fit::quantity}, Key{"line", &Fit::line},
-                                      Key{"spread", &Fit::spread},     Key{"noise", &Fit::noise},
+constexpr auto keys<Fit> = std::tuple{Key{"series", &Fit::series},
+                                      Key{"technique", &Fit::technique},
+                                      Key{"width", &Fit::width},
+                                      Key{"height", &Fit::height},
+                                      Key{"variable", &Fit::variable},
+                                      Key{"unit", &Fit::unit},
+                                      Key{"quantity", &Fit::quantity},
+                                      Key{"line", &Fit::line},
+                                      Key{"spread", &Fit::spread, Range{.low = 1}},
+                                      Key{"noise", &Fit::noise, nonNegative},
                                       Key{"flat", &Fit::flat}};
 template <>
 constexpr auto keys<ImagePair> =
@@ -205,6 +224,26 @@ template <typename Element> void read(const Json& value, const std::string& fiel
     }
 }
 
+std::string describe(const Range& range) {
+    std::ostringstream text;
+    const Range any;
+    text << "a number ";
+    if (range.low == any.low) {
+        text << "up to " << range.high;
+    } else if (range.high == any.high) {
+        text << "from " << range.low;
+    } else {
+        text << "from " << range.low << " to " << range.high;
+    }
+    return text.str();
+}
+
+void checkRange(const Json& value, const std::string& field, const Range& range) {
+    if (value.is_number() && (value.get<double>() < range.low || value.get<double>() > range.high)) {
+        refuse(field, value, describe(range));
+    }
+}
+
 template <typename Type> constexpr bool isOptional = false;
 template <typename Type> constexpr bool isOptional<std::optional<Type>> = true;
 
@@ -221,6 +260,7 @@ requires(!std::is_null_pointer_v<std::remove_cvref_t<decltype(keys<Struct>)>>) v
         const auto member = value.find(key.name);
         if (member != value.end()) {
             read(*member, prefix + key.name, result.*key.member);
+            checkRange(*member, prefix + key.name, key.range);
             ++found;
         } else if (!isOptional<std::remove_cvref_t<decltype(result.*key.member)>>) {
             throw FileError(prefix + key.name + " is missing");
@@ -251,10 +291,6 @@ void check(const Summary& summary, const std::string& field) {
 }
 
 void check(const Measurement& measurement, const std::string& field) {
-    if (measurement.width == 0 || measurement.height == 0) {
-        throw FileError(field + " has a picture of " + std::to_string(measurement.width) + "x" +
-                        std::to_string(measurement.height) + " pixels");
-    }
     check(measurement.frame, field + ".frame");
     check(measurement.effect, field + ".effect");
     check(measurement.copy, field + ".copy");
@@ -264,7 +300,19 @@ void check(const Measurement& measurement, const std::string& field) {
     }
 }
 
+void check(const std::string& value, const std::string& field, std::initializer_list<const char*> choices) {
+    if (std::find(choices.begin(), choices.end(), value) == choices.end()) {
+        std::string list;
+        for (const char* choice : choices) {
+            list += (list.empty() ? "\"" : ", \"") + std::string(choice) + '"';
+        }
+        refuse(field, value, "one of " + list);
+    }
+}
+
 void check(const Results& results) {
+    check(results.suite, "suite", {"thesis", "sweep", "pareto"});
+    check(results.machine.kind, "machine.kind", {"discrete", "integrated", "virtual", "software", "other"});
     std::set<std::string> ids;
     for (std::size_t i = 0; i < results.measurements.size(); ++i) {
         const std::string field = "measurements[" + std::to_string(i) + "]";

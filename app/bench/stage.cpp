@@ -4,7 +4,7 @@ namespace nacre::bench {
 namespace {
 
 renderer::RenderSettings settingsOf(const Configuration& configuration) {
-    renderer::RenderSettings settings;
+    renderer::RenderSettings settings{configuration.effect};
     settings.width = configuration.size.width;
     settings.height = configuration.size.height;
     settings.shadowMapSize = configuration.shadowMapSize;

@@ -64,6 +64,28 @@ fs::path temporaryNeighbour(const fs::path& file) {
     return result;
 }
 
+/// The file that a chain of links ends at, whether or not it is there. The chain is known to end.
+fs::path followLinks(fs::path file) {
+    while (fs::is_symlink(file)) {
+        file = file.parent_path() / fs::read_symlink(file);
+    }
+    return file;
+}
+
+/// A file without a name, which the system removes when the process is killed; -1 where there is no such thing.
+int openNameless(const fs::path& folder) {
+    if (::access("/proc/self/fd", X_OK) != 0) { // `name` needs it
+        return -1;
+    }
+    return ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+}
+
+/// Gives a nameless file its name; false with errno set.
+bool name(int descriptor, const fs::path& file) {
+    const std::string source = "/proc/self/fd/" + std::to_string(descriptor);
+    return ::linkat(AT_FDCWD, source.c_str(), AT_FDCWD, file.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
 } // namespace
 
 std::vector<std::uint8_t> readFile(const fs::path& file, std::uint64_t maxBytes) {
@@ -109,23 +131,27 @@ std::vector<std::uint8_t> readFile(const fs::path& file, std::uint64_t maxBytes)
 
 void writeFileAtomically(const fs::path& file, std::span<const std::uint8_t> bytes) {
     struct stat status {};
-    fs::path target = file;
-    if (::stat(file.c_str(), &status) == 0) {
-        if (S_ISDIR(status.st_mode)) {
-            fail(file, "cannot be written", EISDIR);
-        }
-        if (!S_ISREG(status.st_mode)) {
-            return writeInPlace(file, bytes);
-        }
-        target = fs::canonical(file); // so that a link keeps pointing at what it points at
+    const bool exists = ::stat(file.c_str(), &status) == 0;
+    if (!exists && errno != ENOENT) {
+        fail(file, "cannot be written", errno);
     }
+    if (exists && S_ISDIR(status.st_mode)) {
+        fail(file, "cannot be written", EISDIR);
+    }
+    if (exists && !S_ISREG(status.st_mode)) {
+        return writeInPlace(file, bytes);
+    }
+    const fs::path target = followLinks(file); // so that a link keeps pointing at what it points at
     const fs::path temporary = temporaryNeighbour(target);
-    Descriptor descriptor(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    const int nameless = openNameless(target.parent_path());
+    Descriptor descriptor(nameless >= 0 ? nameless // not every file system has those
+                                        : ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (descriptor.get() < 0) {
         fail(file, "cannot be written", errno);
     }
-    if (!writeAll(descriptor.get(), bytes) || ::fsync(descriptor.get()) != 0 || descriptor.close() != 0 ||
-        ::rename(temporary.c_str(), target.c_str()) != 0) {
+    if ((exists && ::fchmod(descriptor.get(), status.st_mode & 07777) != 0) || !writeAll(descriptor.get(), bytes) ||
+        ::fsync(descriptor.get()) != 0 || (nameless >= 0 && !name(descriptor.get(), temporary)) ||
+        descriptor.close() != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
         const int error = errno;
         ::unlink(temporary.c_str());
         fail(file, "cannot be written", error);

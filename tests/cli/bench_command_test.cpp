@@ -91,6 +91,16 @@ TEST_F(BenchTest, RefusesAFolderItCannotWriteTo) {
     expectComplaint(run({"bench", "pareto", "--quick", "-o", "taken"}), 1, {"taken"});
 }
 
+TEST_F(BenchTest, LeavesNothingWhenItFails) {
+    const Outcome outcome = run({"bench", "pareto", "--quick", "--scene", "none.json", "-o", "out"});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.error.find("nacre: none.json: cannot be read"), std::string::npos) << outcome.error;
+    EXPECT_TRUE(files().empty());
+    write("results.json", bench::sample::thesisResults()); // and none of its pictures
+    expectComplaint(run({"bench", "report", "results.json"}), 1, {".png", "No such file"});
+    EXPECT_EQ(files(), std::vector<std::string>{"results.json"});
+}
+
 TEST_F(BenchTest, ParetoOfASmallSceneIsComplete) {
     writeText(folder() / "cube.obj", cubeObj);
     writeText(folder() / "scene.json", R"({"models": [{"model": "cube.obj", "material": "skin"}]})");

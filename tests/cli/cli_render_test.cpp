@@ -172,6 +172,12 @@ TEST_F(RenderTest, TheGalleryIsLitFromEitherSide) {
     EXPECT_NE(picture("front.png").pixels, picture("back.png").pixels);
 }
 
+TEST_F(RenderTest, ALightChosenTwiceShinesOnce) {
+    const nlohmann::json all = render({bunny})["scene"]["lights"];
+    EXPECT_EQ(render({bunny, "--front", "--back"})["scene"]["lights"], all);
+    EXPECT_EQ(render({bunny, "--light", "both", "--back", "--light", all[0]})["scene"]["lights"], all);
+}
+
 TEST_F(RenderTest, EveryModelCanBeLitFromBehind) {
     const nlohmann::json all = render({bunny, "--material", "wax"});
     const nlohmann::json back = render({bunny, "--material", "wax", "--back"});
@@ -211,6 +217,22 @@ TEST_F(RenderTest, EveryAovIsWritten) {
         const auto [low, high] = std::ranges::minmax(image.firstChannel);
         EXPECT_LT(low, high) << file;
     }
+}
+
+TEST_F(RenderTest, AnExrOfManySamplesHasTheSizeAndLightOfThePicture) {
+    const auto mean = [&](const char* samples) {
+        render({bunny, "--samples", samples, "-o", "color.exr"});
+        const ExrImage image = readExr(folder() / "color.exr");
+        EXPECT_EQ(image.width, width);
+        EXPECT_EQ(image.height, height);
+        double sum = 0;
+        for (const float value : image.firstChannel) {
+            sum += value;
+        }
+        return sum / width / height;
+    };
+    const double one = mean("1");
+    EXPECT_NEAR(mean("3"), one, 0.05 * one);
 }
 
 TEST_F(RenderTest, ValidationIsClean) {

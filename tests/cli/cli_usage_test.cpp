@@ -1,6 +1,9 @@
 // Help, version, and wrong usage: exit code 2 and one sentence that names the option and its value. Needs no device.
 #include "command.hpp"
 
+#include <filesystem>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +12,8 @@ namespace {
 using nacre::test::CommandTest;
 using nacre::test::expectComplaint;
 using nacre::test::Outcome;
+using nacre::test::readText;
+using nacre::test::writeText;
 
 struct WrongUsage {
     std::string name;
@@ -20,6 +25,8 @@ const std::vector<WrongUsage> wrongUsages{
     {"UnknownCommand", {"paint"}, {"paint"}},
     {"UnknownOption", {"render", "--colour", "red"}, {"--colour"}},
     {"TwoScenes", {"render", "a.obj", "b.obj"}, {"b.obj"}},
+    {"LightThenTwoScenes", {"render", "--light", "back", "a.obj", "b.obj"}, {"b.obj"}},
+    {"AovThenTwoScenes", {"render", "--aov", "depth=d.exr", "a.obj", "b.obj"}, {"b.obj"}},
     {"MissingValue", {"render", "--size"}, {"--size"}},
     {"SizeZero", {"render", "--size", "0x0"}, {"--size", "0x0", "1x1"}},
     {"SizeHuge", {"render", "--size", "100000x100000"}, {"--size", "100000x100000", "16384x16384"}},
@@ -38,6 +45,15 @@ const std::vector<WrongUsage> wrongUsages{
     {"AovNoFile", {"render", "--aov", "depth"}, {"--aov", "'depth'", "NAME=FILE.exr"}},
     {"OutputKind", {"render", "-o", "picture.jpg"}, {"--output", "'picture.jpg'", ".png"}},
     {"OutputEmpty", {"render", "-o", ""}, {"--output"}},
+    {"SceneEmpty", {"render", ""}, {"SCENE", "empty"}},
+    {"LightEmpty", {"render", "--light", ""}, {"--light", "empty"}},
+    {"MaterialEmpty", {"render", "--material", ""}, {"--material", "empty"}},
+    {"CameraEmpty", {"render", "--camera="}, {"--camera", "missing"}},
+    {"CameraPositionEmpty", {"render", "--camera-position", ""}, {"--camera-position", "empty"}},
+    {"JsonEmpty", {"devices", "--json", ""}, {"--json", "empty"}},
+    {"BenchSecondsNan", {"bench", "pareto", "--seconds", "nan"}, {"--seconds nan", "1 to 86400"}},
+    {"BenchSecondsZero", {"bench", "pareto", "--seconds", "0"}, {"--seconds 0", "1 to 86400"}},
+    {"BenchSceneEmpty", {"bench", "pareto", "--scene", ""}, {"--scene", "empty"}},
     {"SameFile", {"render", "-o", "a.exr", "--aov", "depth=a.exr"}, {"same file", "a.exr"}},
     {"SameFileDifferentlySpelt", {"render", "-o", "a.exr", "--aov", "depth=./a.exr"}, {"same file", "a.exr"}},
     {"OutputIsInput", {"render", "s.json", "--json", "s.json"}, {"same file", "s.json"}},
@@ -47,6 +63,9 @@ const std::vector<WrongUsage> wrongUsages{
     {"ShadowMapWord", {"render", "--shadow-map-size", "big"}, {"--shadow-map-size", "big"}},
     {"ExposureNan", {"render", "--exposure", "nan"}, {"--exposure", "nan"}},
     {"ExposureHuge", {"render", "--exposure", "1e9"}, {"--exposure", "1e+09"}},
+    {"ExposureOfAnExr", {"render", "--exposure", "1", "-o", "a.exr"}, {"--exposure", "'a.exr'"}},
+    {"CameraPositionFar", {"render", "--camera-position", "0,2e9,0"}, {"--camera-position 2e+09", "1e+09"}},
+    {"CameraTargetFar", {"render", "--camera-target=0,0,-1e30"}, {"--camera-target -1e+30", "-1e+09"}},
     {"CameraPositionShort", {"render", "--camera-position", "1,2"}, {"--camera-position", "'1,2'"}},
     {"CameraPositionLong", {"render", "--camera-position", "1,2,3,4"}, {"--camera-position", "'1,2,3,4'"}},
     {"CameraPositionInfinite", {"render", "--camera-position", "1,inf,0"}, {"--camera-position", "1,inf,0"}},
@@ -76,6 +95,20 @@ protected:
     }
 };
 
+TEST_F(UsageTest, NoOutputReplacesAnotherFileThroughALink) {
+    writeText(folder() / "scene.json", "{}");
+    std::filesystem::create_symlink("scene.json", folder() / "link.json");
+    std::filesystem::create_hard_link(folder() / "scene.json", folder() / "twin.json");
+    std::filesystem::create_directory_symlink(".", folder() / "here");
+    const std::vector<std::string> before = files();
+    for (const char* output : {"link.json", "twin.json", "here/scene.json"}) {
+        expectComplaint(run({"render", "scene.json", "--json", output}), 2, {"same file", "'scene.json'", output});
+    }
+    expectComplaint(run({"render", "-o", "a.exr", "--aov", "depth=here/a.exr"}), 2, {"same file", "here/a.exr"});
+    EXPECT_EQ(files(), before);
+    EXPECT_EQ(readText(folder() / "scene.json"), "{}");
+}
+
 TEST_F(UsageTest, AloneSaysWhatThereIs) {
     expectText({}, {"render", "material", "devices", "Examples", "--help"});
 }
@@ -97,6 +130,17 @@ TEST_F(UsageTest, HelpOfTheOtherCommands) {
     expectText({"devices", "--help"}, {"--json"});
     expectText({"material", "--help"}, {"list", "show", "check"});
     expectText({"material", "show", "--help"}, {"MATERIAL", "--json"});
+}
+
+TEST_F(UsageTest, HelpOfEveryCommandHasExamplesOfIt) {
+    for (const std::string& command : std::vector<std::string>{
+             "render", "devices", "material", "material list", "material show", "material check", "bench",
+             "bench thesis", "bench sweep", "bench pareto", "bench diff", "bench report", "bench markdown"}) {
+        std::istringstream words(command);
+        std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+        arguments.emplace_back("--help");
+        expectText(arguments, {"Examples:\n", "  nacre " + command});
+    }
 }
 
 } // namespace

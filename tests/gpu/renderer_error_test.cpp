@@ -55,6 +55,30 @@ TEST_F(Errors, MemoryIsGivenBackAfterARefusal) {
     EXPECT_NO_THROW(render(plane(), plainSettings()));
 }
 
+TEST_F(Errors, TechniquesTooLargeForTheDeviceKeepNoOtherFromThePicture) {
+    // What brute keeps of these pixels is more than the 128 MiB of one buffer that Vulkan promises.
+    renderer::RenderSettings settings = plainSettings();
+    settings.width = 2000;
+    settings.height = 1400;
+    settings.scatter = true;
+    renderer::Renderer renderer = render(plane(), settings);
+    renderer::EffectSettings brute = settings;
+    brute.technique = renderer::Technique::Brute;
+    int refusals = 0;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        try {
+            renderer.setEffect(brute);
+        } catch (const renderer::RendererError& error) {
+            EXPECT_NE(std::string(error.what()).find("maxStorageBufferRange"), std::string::npos) << error.what();
+            ++refusals;
+        }
+    }
+    EXPECT_NE(refusals, 1);
+    if (refusals > 0) {
+        EXPECT_NO_THROW(renderer.render(plane().cameras[0]));
+    }
+}
+
 TEST_F(Errors, Cameras) {
     const auto refuse = [](const std::function<void(scene::Camera&)>& change, const std::string& word) {
         scene::Scene scene = plane();
@@ -64,7 +88,9 @@ TEST_F(Errors, Cameras) {
     refuse([](scene::Camera& camera) { camera.target = camera.position; }, "target");
     refuse([](scene::Camera& camera) { camera.verticalFieldOfView = 4; }, "verticalFieldOfView");
     refuse([](scene::Camera& camera) { camera.position.x = std::numeric_limits<float>::quiet_NaN(); }, "position");
-    refuse([](scene::Camera& camera) { camera.nearPlane = 5, camera.farPlane = 1; }, "nearPlane");
+    refuse([](scene::Camera& camera) { camera.nearPlane = 5, camera.farPlane = 1; }, "nearPlane at 5, which is not");
+    refuse([](scene::Camera& camera) { camera.nearPlane = 50; }, "nearPlane at 50, behind the scene");
+    refuse([](scene::Camera& camera) { camera.farPlane = 1e-8f; }, "farPlane at 1e-08, before the scene");
 }
 
 TEST_F(Errors, ScenesThatDoNotHoldTogether) {
@@ -83,6 +109,9 @@ TEST_F(Errors, ScenesThatDoNotHoldTogether) {
     scene = plane();
     scene.lights[0].direction = glm::vec3(0);
     expectRefused(scene, plainSettings(), {"light 'sun'", "direction"});
+    scene = plane();
+    scene.lights.assign(1025, scene.lights[0]);
+    expectRefused(scene, plainSettings(), {"1025 lights", "1024"});
     scene = plane();
     scene.metersPerUnit = 0;
     expectRefused(scene, plainSettings(), {"metersPerUnit"});

@@ -184,6 +184,25 @@ TEST(Report, NamesAreTextNotMarkup) {
     EXPECT_FALSE(contains(html, "</script><b>"));
 }
 
+TEST(Report, TakesNoFilesButThoseBesideTheResults) {
+    const std::filesystem::path folder = writePictures();
+    const std::filesystem::path link = folder / "link.png";
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink("/etc/hostname", link);
+    for (const std::string& file :
+         {std::string("/etc/hostname"), std::string("../off.png"), link.filename().string()}) {
+        Results results = thesisResults();
+        results.images[0].afterFile = file;
+        try {
+            formatReport(results, folder);
+            FAIL() << file << " is in the report";
+        } catch (const nacre::FileError& error) {
+            EXPECT_TRUE(contains(error.what(), "is not beside results.json")) << error.what();
+        }
+    }
+    std::filesystem::remove(link);
+}
+
 TEST(Report, SaysWhichPictureIsMissing) {
     try {
         formatReport(thesisResults(), "/nowhere");

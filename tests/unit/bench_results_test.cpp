@@ -10,6 +10,7 @@
 #include <fstream>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 using namespace nacre::bench;
 using Json = nlohmann::json;
@@ -202,6 +203,25 @@ TEST(Results, RefusalNamesTheFieldAndItsValue) {
     json = sampleJson();
     json["measurements"][1]["id"] = json["measurements"][0]["id"];
     EXPECT_NE(refusal(json.dump()).find("is given twice"), std::string::npos);
+}
+
+TEST(Results, KeepToTheSchemasRanges) {
+    const std::tuple<const char*, Json, const char*> faults[] = {
+        {"/measurements/0/coverage", 1.5, "measurements[0].coverage is 1.5, must be a number from 0 to 1"},
+        {"/measurements/0/height", 0, "measurements[0].height is 0, must be a number from 1"},
+        {"/measurements/0/effect/low", -1, "measurements[0].effect.low is -1, must be a number from 0"},
+        {"/measurements/0/effect/confidence", 2, "effect.confidence is 2, must be a number from 0 to 1"},
+        {"/measurements/1/error/psnr", 300, "measurements[1].error.psnr is 300, must be a number from 0 to 200"},
+        {"/noiseFloors/0/share", -0.1, "noiseFloors[0].share is -0.1, must be a number from 0"},
+        {"/fits/0/line/rSquared", 1.5, "fits[0].line.rSquared is 1.5, must be a number up to 1"},
+        {"/fits/0/spread", 0.5, "fits[0].spread is 0.5, must be a number from 1"},
+        {"/suite", "guess", R"(suite is "guess", must be one of "thesis", "sweep", "pareto")"},
+        {"/machine/kind", "abacus", R"(machine.kind is "abacus", must be one of "discrete")"}};
+    for (const auto& [pointer, value, sentence] : faults) {
+        Json json = sampleJson();
+        json[Json::json_pointer(pointer)] = value;
+        EXPECT_NE(refusal(json.dump()).find(sentence), std::string::npos) << refusal(json.dump());
+    }
 }
 
 TEST(Results, ThatMakeNoSenseAreNotWritten) {

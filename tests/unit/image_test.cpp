@@ -128,6 +128,33 @@ TEST_F(Image, HdrDecodesItsSharedExponent) {
               (std::vector<float>{1, 0.5f, 0, 1, std::ldexp(1.0f, -9), std::ldexp(1.0f, -9), std::ldexp(1.0f, -9), 1}));
 }
 
+TEST_F(Image, HdrDecodesRunsAndRefusesWhatIsCutOff) {
+    // Ten pixels of (1, 0.5, 0): red and green as runs, blue as it is, the exponent as two runs.
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 10\n";
+    const std::string scanline = std::string("\x02\x02\x00\x0a\x8a\x80\x8a\x40\x0a", 9) + std::string(10, '\0') +
+                                 std::string("\x84\x81\x86\x81", 4);
+    const auto bytesOf = [](const std::string& text) { return std::vector<std::uint8_t>(text.begin(), text.end()); };
+    const std::string whole = header + scanline + scanline;
+    store("runs.hdr", bytesOf(whole));
+    const FloatImage image = readFloatImage(folder / "runs.hdr");
+    ASSERT_EQ(image.pixels.size(), 80u);
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        EXPECT_EQ(std::vector<float>(&image.pixels[i], &image.pixels[i] + 4), (std::vector<float>{1, 0.5f, 0, 1}));
+    }
+    for (std::size_t size = header.size(); size < whole.size(); ++size) {
+        store("cut.hdr", bytesOf(whole.substr(0, size)));
+        const std::string row = size < header.size() + scanline.size() ? "row 0 of 2" : "row 1 of 2";
+        EXPECT_NE(errorOf([&] { readFloatImage(folder / "cut.hdr"); }).find(row), std::string::npos) << size;
+    }
+    for (const std::string& wrong : {std::string("\x02\x02\x00\x0b", 4), std::string("\x02\x02\x00\x0a\x8b\x80", 6),
+                                     std::string("\x02\x02\x00\x0a\x00", 5)}) {
+        store("wrong.hdr", bytesOf(header + wrong + whole));
+        EXPECT_NE(errorOf([&] { readFloatImage(folder / "wrong.hdr"); }), "");
+    }
+    EXPECT_NE(errorOf([&] { readTexture(folder / "runs.hdr", true); }).find("runs.hdr"), std::string::npos);
+    EXPECT_NE(errorOf([&] { readTexture(folder / "cut.hdr", true); }).find("cut.hdr"), std::string::npos);
+}
+
 TEST_F(Image, RefusesSizesThatDoNotFit) {
     const auto pixels = pattern(12);
     EXPECT_NE(errorOf([&] { writePng(folder / "a.png", 0, 0, 3, {}); }), "");

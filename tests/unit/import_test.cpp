@@ -5,10 +5,13 @@
 #include "scene/import_mesh.hpp"
 
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <numbers>
@@ -245,6 +248,30 @@ TEST(Isolation, TurnsCrashesIntoSentences) {
     EXPECT_EQ(run(sleep, {1, 1 << 30}), "file: takes too long to read; it is probably damaged");
 }
 
+TEST(Isolation, EndsWithItsParent) {
+    int pipes[2];
+    ASSERT_EQ(::pipe(pipes), 0);
+    const pid_t parent = ::fork();
+    if (parent == 0) {
+        ::close(pipes[0]);
+        runIsolated("file", {}, [&]() -> Scene {
+            (void)!::write(pipes[1], "x", 1);
+            ::sleep(1000);
+            return {};
+        });
+        ::_exit(0);
+    }
+    ::close(pipes[1]);
+    char byte = 0;
+    EXPECT_EQ(::read(pipes[0], &byte, 1), 1); // the child is reading
+    ::kill(parent, SIGTERM);
+    ::waitpid(parent, nullptr, 0);
+    pollfd end{pipes[0], POLLIN, 0};
+    ASSERT_EQ(::poll(&end, 1, 10'000), 1) << "the child goes on without its parent";
+    EXPECT_EQ(::read(pipes[0], &byte, 1), 0);
+    ::close(pipes[0]);
+}
+
 TEST(Isolation, BringsEveryMemberAcross) {
     const auto make = [] {
         Scene scene;
@@ -305,17 +332,23 @@ TEST_F(Import, ShowsTheWholeModel) {
     EXPECT_LT(glm::dot(scene.lights[2].direction, forward), 0); // back light from behind
 }
 
-TEST_F(Import, FitsTheExposureToBrightLights) {
+TEST_F(Import, FitsBrightLightsAmongEachOther) {
     Scene scene = load(store("sphere.stl", stl(sphereFacets(4))));
-    scene.lights.resize(1);
-    scene.lights[0].color = glm::vec3(1);
-    scene.lights[0].intensity = 3;
-    fitExposure(scene);
-    EXPECT_EQ(scene.exposure, 1);
-    scene.lights[0].intensity = 100000;
-    fitExposure(scene);
-    EXPECT_NEAR(scene.exposure * 100000, std::numbers::pi, 1e-3);
-    EXPECT_NEAR(scene.exposure * scene.environment.intensity, 1, 1e-5);
+    scene.lights.resize(2);
+    scene.lights[0].color = scene.lights[1].color = glm::vec3(1);
+    scene.lights[0].intensity = 2;
+    scene.lights[1].intensity = 1;
+    fitLights(scene);
+    EXPECT_EQ(scene.lights[0].intensity, 2);
+    for (const float factor : {1e-3f, 1e5f}) {
+        scene.lights[0].intensity = 2 * factor;
+        scene.lights[1].intensity = 1 * factor;
+        fitLights(scene);
+        EXPECT_NEAR(scene.lights[0].intensity, std::numbers::pi * 2 / 3, 1e-5);
+        EXPECT_NEAR(scene.lights[1].intensity, std::numbers::pi / 3, 1e-5);
+    }
+    EXPECT_EQ(scene.exposure, 1); // the sky and built-in lights stay as bright as they look
+    EXPECT_EQ(scene.environment.intensity, 1);
 }
 
 TEST_F(Import, AssignsAMaterialToEverySurface) {

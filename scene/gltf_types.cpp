@@ -1,0 +1,148 @@
+#include "scene/gltf_types.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace nacre::scene {
+namespace {
+
+using Json = nlohmann::json;
+
+enum class Type { Index, Number, Boolean, Text, Object, Indices, Numbers };
+
+/// What a member must be where it is there; `member` is a JSON pointer.
+struct Field {
+    const char* member;
+    Type type;
+};
+
+constexpr std::array nodeFields{Field{"/mesh", Type::Index},          Field{"/camera", Type::Index},
+                                Field{"/skin", Type::Index},          Field{"/children", Type::Indices},
+                                Field{"/matrix", Type::Numbers},      Field{"/rotation", Type::Numbers},
+                                Field{"/translation", Type::Numbers}, Field{"/scale", Type::Numbers},
+                                Field{"/weights", Type::Numbers},     Field{"/extensions", Type::Object}};
+constexpr std::array primitiveFields{Field{"/indices", Type::Index}, Field{"/material", Type::Index},
+                                     Field{"/mode", Type::Index}, Field{"/extensions", Type::Object}};
+constexpr std::array materialFields{Field{"/pbrMetallicRoughness", Type::Object},
+                                    Field{"/pbrMetallicRoughness/baseColorFactor", Type::Numbers},
+                                    Field{"/pbrMetallicRoughness/baseColorTexture", Type::Object},
+                                    Field{"/pbrMetallicRoughness/baseColorTexture/texCoord", Type::Index},
+                                    Field{"/pbrMetallicRoughness/metallicFactor", Type::Number},
+                                    Field{"/pbrMetallicRoughness/roughnessFactor", Type::Number},
+                                    Field{"/pbrMetallicRoughness/metallicRoughnessTexture", Type::Object},
+                                    Field{"/pbrMetallicRoughness/metallicRoughnessTexture/texCoord", Type::Index},
+                                    Field{"/normalTexture", Type::Object},
+                                    Field{"/normalTexture/texCoord", Type::Index},
+                                    Field{"/normalTexture/scale", Type::Number},
+                                    Field{"/emissiveFactor", Type::Numbers},
+                                    Field{"/alphaMode", Type::Text},
+                                    Field{"/alphaCutoff", Type::Number},
+                                    Field{"/doubleSided", Type::Boolean},
+                                    Field{"/extensions", Type::Object}};
+constexpr std::array accessorFields{Field{"/bufferView", Type::Index}, Field{"/byteOffset", Type::Index},
+                                    Field{"/normalized", Type::Boolean}, Field{"/sparse", Type::Object}};
+constexpr std::array viewFields{Field{"/byteOffset", Type::Index}, Field{"/byteStride", Type::Index},
+                                Field{"/extensions", Type::Object}};
+constexpr std::array textureFields{Field{"/source", Type::Index}, Field{"/sampler", Type::Index}};
+constexpr std::array samplerFields{Field{"/wrapS", Type::Index}, Field{"/wrapT", Type::Index}};
+constexpr std::array skinFields{Field{"/inverseBindMatrices", Type::Index}, Field{"/joints", Type::Indices}};
+constexpr std::array lightFields{Field{"/color", Type::Numbers},
+                                 Field{"/intensity", Type::Number},
+                                 Field{"/range", Type::Number},
+                                 Field{"/spot", Type::Object},
+                                 Field{"/spot/innerConeAngle", Type::Number},
+                                 Field{"/spot/outerConeAngle", Type::Number}};
+
+bool isNumber(const Json& value) {
+    return value.is_number();
+}
+
+bool isIndex(const Json& value) {
+    return value.is_number_unsigned();
+}
+
+bool hasType(const Json& value, Type type) {
+    switch (type) {
+    case Type::Index:
+        return isIndex(value);
+    case Type::Number:
+        return isNumber(value);
+    case Type::Boolean:
+        return value.is_boolean();
+    case Type::Text:
+        return value.is_string();
+    case Type::Object:
+        return value.is_object();
+    case Type::Indices:
+        return value.is_array() && std::ranges::all_of(value, isIndex);
+    case Type::Numbers:
+        return value.is_array() && std::ranges::all_of(value, isNumber);
+    }
+    return false;
+}
+
+const char* describe(Type type) {
+    constexpr std::array texts{"a whole number, 0 or more",
+                               "a number",
+                               "true or false",
+                               "a string",
+                               "an object",
+                               "an array of whole numbers, 0 or more",
+                               "an array of numbers"};
+    return texts[static_cast<std::size_t>(type)];
+}
+
+void check(const GltfFile& file, const Json& object, const std::string& name, std::span<const Field> fields) {
+    for (const auto& [member, type] : fields) {
+        const Json::json_pointer pointer(member);
+        if (!object.is_object() || !object.contains(pointer) || object[pointer].is_null()) {
+            continue;
+        }
+        if (!hasType(object[pointer], type)) {
+            std::string path = name + (member + (name.empty() ? 1 : 0)); // without the first slash
+            std::ranges::replace(path, '/', '.');
+            std::string text = object[pointer].dump(-1, ' ', false, Json::error_handler_t::replace);
+            text = text.size() > 60 ? text.substr(0, 57) + "..." : text;
+            failGltf(file, path + " is " + text + ", must be " + describe(type));
+        }
+    }
+}
+
+/// Checks the elements of the document's array `key`.
+void checkAll(const GltfFile& file, const Json& parent, const std::string& key, std::span<const Field> fields,
+              const std::string& prefix = "") {
+    const auto array = parent.find(key);
+    if (array == parent.end() || !array->is_array()) {
+        return;
+    }
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        check(file, (*array)[i], prefix + key + "[" + std::to_string(i) + "]", fields);
+    }
+}
+
+} // namespace
+
+void checkGltfTypes(const GltfFile& file, const Json& document) {
+    check(file, document, "", std::array{Field{"/scene", Type::Index}});
+    checkAll(file, document, "scenes", std::array{Field{"/nodes", Type::Indices}});
+    checkAll(file, document, "nodes", nodeFields);
+    checkAll(file, document, "meshes", std::array{Field{"/weights", Type::Numbers}});
+    checkAll(file, document, "materials", materialFields);
+    checkAll(file, document, "accessors", accessorFields);
+    checkAll(file, document, "bufferViews", viewFields);
+    checkAll(file, document, "textures", textureFields);
+    checkAll(file, document, "samplers", samplerFields);
+    checkAll(file, document, "skins", skinFields);
+    const Json::json_pointer lights("/extensions/KHR_lights_punctual");
+    if (document.contains(lights) && document[lights].is_object()) {
+        checkAll(file, document[lights], "lights", lightFields, "extensions.KHR_lights_punctual.");
+    }
+    const auto meshes = document.find("meshes");
+    for (std::size_t i = 0; meshes != document.end() && meshes->is_array() && i < meshes->size(); ++i) {
+        if ((*meshes)[i].is_object()) {
+            checkAll(file, (*meshes)[i], "primitives", primitiveFields, "meshes[" + std::to_string(i) + "].");
+        }
+    }
+}
+
+} // namespace nacre::scene

@@ -1,0 +1,14 @@
+// The types of a glTF document's members. tinygltf takes the default where an optional member has another type.
+#pragma once
+
+#include "scene/gltf_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace nacre::scene {
+
+/// Throws SceneError, naming the field and its value, for a member that is read here and has another type than glTF
+/// gives it. null stands for a member that is not there.
+void checkGltfTypes(const GltfFile& file, const nlohmann::json& document);
+
+} // namespace nacre::scene
