@@ -124,7 +124,7 @@ bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& o
     const auto place = [&](const std::filesystem::path& file) {
         return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
     };
-    return place(one) == place(other);
+    return place(one) == place(other) && !error;
 }
 
 /// No output may replace another one or the input.

@@ -127,7 +127,10 @@ vk::ImageUsageFlags effectUsage(NacreImageSlot slot) {
 
 Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
                        const std::vector<PlacedLight>& lights)
-    : info_(info), materials_(checked(materials)), message_(std::make_unique<std::string>()) {
+    : info_(info),
+      pipelines_(gpu.device, vk::PipelineCacheCreateInfo()),
+      materials_(checked(materials)),
+      message_(std::make_unique<std::string>()) {
     std::transform(lights.begin(), lights.end(), std::back_inserter(lights_),
                    [](const PlacedLight& light) { return convert(light); });
     constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
@@ -149,6 +152,7 @@ void Subsurface::createContext(Gpu& gpu, std::uint32_t techniques) {
     contextInfo.physicalDevice = *gpu.physicalDevice;
     contextInfo.device = *gpu.device;
     contextInfo.getInstanceProcAddr = gpu.context.getDispatcher()->vkGetInstanceProcAddr;
+    contextInfo.pipelineCache = *pipelines_;
     contextInfo.maxExtent = info_.extent;
     contextInfo.techniques = techniques;
     contextInfo.framesInFlight = info_.framesInFlight;

@@ -77,6 +77,7 @@ private:
 
     Info info_;
     std::vector<NacreLight> lights_;
+    vk::raii::PipelineCache pipelines_{nullptr}; ///< from one context to the next
     Image scattered_;
     Image transmitted_;
     Image thickness_;
