@@ -137,6 +137,9 @@ double noiseFloor(const Summary& first, const Summary& second) {
 }
 
 Verdict compareTimes(const Summary& before, const Summary& after, double noise) {
+    if (std::min(before.confidence, after.confidence) < confidence) {
+        return Verdict::Unknown;
+    }
     if (after.median > before.median * (1 + noise) && after.low > before.high) {
         return Verdict::Worse;
     }

@@ -184,6 +184,17 @@ TEST(Verdict, NeedsMoreThanNoiseAndIntervalsApart) {
     EXPECT_EQ(comparePsnr(45, 44.95, 0.1), Verdict::Same);
 }
 
+TEST(Verdict, IsUnknownWhereTooFewSamplesShowASpread) {
+    const Summary six = summarize(std::vector{100.0, 101.0, 102.0, 103.0, 104.0, 105.0});
+    const Summary sixLater = summarize(std::vector{200.0, 201.0, 202.0, 203.0, 204.0, 205.0});
+    EXPECT_EQ(compareTimes(six, sixLater, 0.01), Verdict::Worse);
+    for (const int count : {1, 2, 5}) {
+        const Summary few = summarize(std::vector<double>(static_cast<std::size_t>(count), 200.0));
+        EXPECT_EQ(compareTimes(six, few, 0.01), Verdict::Unknown) << count;
+        EXPECT_EQ(compareTimes(few, six, 0.01), Verdict::Unknown) << count;
+    }
+}
+
 TEST(Verdict, FindsTenPercentAndSeldomAnythingInNoise) {
     std::mt19937 random(4);
     int falseAlarms = 0;
