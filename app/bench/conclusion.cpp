@@ -31,7 +31,7 @@ std::string opening(const Results& results) {
         noise = std::max(noise, measurement.noise);
         fewest = std::min(fewest, measurement.effect.count);
     }
-    return "On " + results.machine.device + ", with at least " + std::to_string(fewest) + " frames for each of " +
+    return "On " + results.machine.device + ", with at least " + std::to_string(fewest) + " measurements of each of " +
            std::to_string(results.measurements.size()) + " configurations and a noise floor of up to " +
            formatShare(noise) + ": ";
 }

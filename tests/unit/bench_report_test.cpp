@@ -130,7 +130,7 @@ TEST(Pareto, MeansAreOverAllPicturesOfOneSize) {
 TEST(Conclusion, FollowsTheData) {
     Results results = thesisResults();
     const std::string text = conclude(results);
-    EXPECT_TRUE(contains(text, "On A device, with at least 100 frames")) << text;
+    EXPECT_TRUE(contains(text, "On A device, with at least 100 measurements of each of 66")) << text;
     EXPECT_TRUE(contains(text, "the thesis's technique grows by 20")) << text;
     EXPECT_TRUE(contains(text, "its straight line; the hardware of 2011 needed 1000 µs")) << text;
     EXPECT_TRUE(contains(text, "bank is flat within its confidence or the noise")) << text;
