@@ -135,7 +135,7 @@ std::string bakedSentence(const Results& results) {
         const Measurement& other = *found->second;
         const double noise = std::max(measurement.noise, other.noise);
         faster += compareTimes(other.effect, measurement.effect, noise) == Verdict::Better ? 1 : 0;
-        ratios.push_back(measurement.effect.median / other.effect.median);
+        ratios.push_back(ratioOf(measurement.effect.median, other.effect.median));
     }
     if (ratios.empty()) {
         return {};

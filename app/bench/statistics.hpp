@@ -33,6 +33,9 @@ Summary summarize(std::span<const double> samples);
 /// Fan 1996, "Sample quantiles in statistical packages").
 double percentile(std::span<const double> ascending, double share);
 
+/// One time over another; 1 where the other is 0: the clock is too coarse to tell.
+double ratioOf(double time, double other);
+
 /// The straight line through a series of measurements, and how sure its slope is.
 struct Line {
     std::size_t count = 0;

@@ -168,6 +168,12 @@ TEST(Line, WhatRisesAndLevelsOffIsNotFlat) {
     EXPECT_TRUE(isFlat(line, 127, 38, 40, 0.02));
 }
 
+TEST(Ratio, OfTimesThatTheClockIsTooCoarseForIsOne) {
+    EXPECT_EQ(ratioOf(3, 2), 1.5);
+    EXPECT_EQ(ratioOf(0, 0), 1);
+    EXPECT_EQ(ratioOf(3, 0), 1);
+}
+
 TEST(NoiseFloor, IsTheDifferenceOfTheTwoOrTheirWidth) {
     EXPECT_NEAR(noiseFloor(around(100, 1), around(103, 1)), 0.03, 1e-12);
     EXPECT_NEAR(noiseFloor(around(100, 5), around(101, 1)), 0.05, 1e-12);
