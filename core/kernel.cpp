@@ -155,22 +155,18 @@ Kernel lineSpreadKernel(const Profile& profile, int tapCount, double radius) {
 }
 
 Kernel sliceKernel(std::span<const Layer> layers, int tapRadius, double extent) {
-    requireNoFault(findLayerFault(layers));
     requireNoFault(findFault("tapRadius", tapRadius, {1, 127, ""}));
     requireNoFault(findFault("extent", extent, extentRange));
-    const std::vector<Layer> unit = normalized(layers);
-    Rgb scattering{1, 1, 1};
-    for (const Layer& layer : unit) {
-        for (int channel = 0; channel < 3 && layer.variance == 0; ++channel) {
-            scattering[channel] -= layer.weight[channel];
+    const SumOfGaussiansProfile profile(layers);
+    Rgb scattering{};
+    for (const Layer& layer : profile.layers()) {
+        for (int channel = 0; channel < 3 && layer.variance > 0; ++channel) {
+            scattering[channel] += layer.weight[channel];
         }
     }
     Kernel kernel = weighByWidth(quadraticOffsets(2 * tapRadius + 1, extent), [&](int channel, double x) {
-        double sum = std::numeric_limits<double>::min(); // all light may stay at the centre
-        for (const Layer& layer : unit) {
-            sum += layer.variance > 0 ? layer.weight[channel] * gaussian(layer.variance, x) : 0;
-        }
-        return sum;
+        // All light may stay at the centre.
+        return profile.radial(channel, std::abs(x)) + std::numeric_limits<double>::min();
     });
     blendToCenter(kernel, scattering);
     return kernel;

@@ -31,7 +31,7 @@ std::string opening(const Results& results) {
         noise = std::max(noise, measurement.noise);
         fewest = std::min(fewest, measurement.effect.count);
     }
-    return "On " + results.machine.device + ", with at least " + std::to_string(fewest) + " frames for each of " +
+    return "On " + results.machine.device + ", with at least " + std::to_string(fewest) + " measurements of each of " +
            std::to_string(results.measurements.size()) + " configurations and a noise floor of up to " +
            formatShare(noise) + ": ";
 }
@@ -135,7 +135,7 @@ std::string bakedSentence(const Results& results) {
         const Measurement& other = *found->second;
         const double noise = std::max(measurement.noise, other.noise);
         faster += compareTimes(other.effect, measurement.effect, noise) == Verdict::Better ? 1 : 0;
-        ratios.push_back(measurement.effect.median / other.effect.median);
+        ratios.push_back(ratioOf(measurement.effect.median, other.effect.median));
     }
     if (ratios.empty()) {
         return {};

@@ -150,6 +150,9 @@ std::string formatComparison(const Comparison& comparison) {
     addList(text, comparison, Verdict::Better, "faster or more accurate");
     addList(text, comparison.removed, "no longer measured");
     addList(text, comparison.added, "measured for the first time");
+    if (const std::size_t unknown = countOf(comparison, Verdict::Unknown); unknown > 0) {
+        text += "measured too seldom to tell: " + std::to_string(unknown) + '\n';
+    }
     text += "the same within noise: " + std::to_string(countOf(comparison, Verdict::Same)) + " of " +
             std::to_string(comparison.changes.size()) + " quantities\n";
     return text;

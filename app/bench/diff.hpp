@@ -32,7 +32,8 @@ struct Comparison {
 /// Throws std::invalid_argument when the runs have no configuration in common.
 Comparison compare(const Results& before, const Results& after);
 
-/// The comparison as lines of text: what got worse, what got better, and how many stayed the same.
+/// The comparison as lines of text: what got worse, what got better, how many cannot be told, and how many stayed the
+/// same.
 std::string formatComparison(const Comparison& comparison);
 
 } // namespace nacre::bench

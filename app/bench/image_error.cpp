@@ -10,8 +10,8 @@ namespace {
 constexpr double peakShare = 0.999;
 constexpr double relMseEpsilon = 0.01;
 
-double finite(float value) {
-    return std::isfinite(value) ? static_cast<double>(value) : 0;
+float finite(float value) {
+    return std::isfinite(value) ? value : 0;
 }
 
 void check(const IdentifiedPicture& picture) {
@@ -55,7 +55,7 @@ void interpolate(const IdentifiedPicture& picture, const Neighbours& x, const Ne
         if (picture.materialIds[index] == id) {
             total += weight;
             for (std::size_t channel = 0; channel < 3; ++channel) {
-                sum[channel] += weight * picture.pixels[3 * index + channel];
+                sum[channel] += weight * finite(picture.pixels[3 * index + channel]);
             }
         }
     };
@@ -111,8 +111,8 @@ ImageError ReferencePicture::compare(const IdentifiedPicture& picture) const {
         if (reference_.materialIds[i / 3] == 0) {
             continue;
         }
-        const double x = finite(pixels[i]);
-        const double r = finite(reference_.pixels[i]);
+        const double x = static_cast<double>(finite(pixels[i]));
+        const double r = static_cast<double>(finite(reference_.pixels[i]));
         squares += (x - r) * (x - r);
         relativeSquares += (x - r) * (x - r) / (r * r + relMseEpsilon);
         pictureSum += x;

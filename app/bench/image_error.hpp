@@ -31,7 +31,7 @@ private:
 };
 
 /// The picture at the size and with the material ids of `guide`: bilinear between those of the four nearest pixels that
-/// have the same id; without such a neighbour the nearest pixel.
+/// have the same id, of which those that are not finite count as black; without such a neighbour the nearest pixel.
 std::vector<float> enlarge(const IdentifiedPicture& picture, const IdentifiedPicture& guide);
 
 } // namespace nacre::bench

@@ -152,7 +152,7 @@ std::string passTable(const Results& results, const std::string& series) {
         for (const PassResult& pass : measurement->passes) {
             table.add({technique, formatSize(measurement->width, measurement->height), pass.name,
                        formatNumber(pass.time.median), formatInterval(pass.time.p5, pass.time.p95),
-                       formatShare(pass.time.median / measurement->frame.median)});
+                       formatShare(ratioOf(pass.time.median, measurement->frame.median))});
         }
     }
     return table.html();

@@ -93,7 +93,7 @@ struct Measurement {
     double passShare = 0;           ///< Σ median of the passes, timed within frames / median of the frame
     std::uint64_t copyBytes = 0;    ///< what the copy reads and writes
     double coverage = 0;            ///< [0, 1] share of pixels with a subsurface material
-    double footprint = 0;           ///< px, rms radius of the widest channel at the body nearest to the camera
+    double footprint = 0;           ///< px, rms radius of the widest channel at the camera's target
     std::uint64_t triangles = 0;
     std::uint32_t lights = 0;
     std::uint32_t materials = 0;

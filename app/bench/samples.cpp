@@ -53,7 +53,7 @@ void Samples::fill(Measurement& measurement) const {
         measurement.passes.push_back({pass.name, summarize(alone == nullptr ? pass.times : alone->times)});
         sum += summarize(pass.times).median;
     }
-    measurement.passShare = sum / measurement.frame.median;
+    measurement.passShare = ratioOf(sum, measurement.frame.median);
     for (const renderer::MemoryUse& use : last_.memory) {
         measurement.memory.push_back({use.name, use.bytes});
     }

@@ -69,6 +69,10 @@ double percentile(std::span<const double> ascending, double share) {
     return ascending[below] + fraction * (ascending[above] - ascending[below]);
 }
 
+double ratioOf(double time, double other) {
+    return other > 0 ? time / other : 1;
+}
+
 Summary summarize(std::span<const double> samples) {
     if (samples.empty()) {
         throw std::invalid_argument("there is no sample to summarise");
@@ -137,6 +141,9 @@ double noiseFloor(const Summary& first, const Summary& second) {
 }
 
 Verdict compareTimes(const Summary& before, const Summary& after, double noise) {
+    if (std::min(before.confidence, after.confidence) < confidence) {
+        return Verdict::Unknown;
+    }
     if (after.median > before.median * (1 + noise) && after.low > before.high) {
         return Verdict::Worse;
     }

@@ -33,6 +33,9 @@ Summary summarize(std::span<const double> samples);
 /// Fan 1996, "Sample quantiles in statistical packages").
 double percentile(std::span<const double> ascending, double share);
 
+/// One time over another; 1 where the other is 0: the clock is too coarse to tell.
+double ratioOf(double time, double other);
+
 /// The straight line through a series of measurements, and how sure its slope is.
 struct Line {
     std::size_t count = 0;
@@ -66,10 +69,10 @@ bool isFlat(const Line& line, double span, double smallest, double largest, doub
 /// coarse to tell anything.
 double noiseFloor(const Summary& first, const Summary& second);
 
-enum class Verdict { Same, Better, Worse };
+enum class Verdict { Same, Better, Worse, Unknown };
 
 /// A time against an earlier one: different only when the medians differ by more than `noise` (a share) and their
-/// intervals do not overlap.
+/// intervals do not overlap; unknown when an interval has not the confidence asked, as with fewer than six samples.
 Verdict compareTimes(const Summary& before, const Summary& after, double noise);
 
 /// A PSNR against an earlier one: different when it changed by more than `noise` dB.

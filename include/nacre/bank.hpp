@@ -1,6 +1,6 @@
-// The Gaussian bank: one fixed set of eight pixel-grid kernels, identity to 71 px, that any diffusion profile at any
+// The Gaussian bank: one fixed set of eight pixel-grid kernels, identity to 72 px, that any diffusion profile at any
 // scale is a non-negative mixture of. The `bank` technique blurs once with every kernel; profiles, layers and materials
-// differ only in the mixture's weights, so they cost nothing. docs/scatter.md tells the whole story.
+// differ only in the mixture's weights, so they cost next to nothing. docs/scatter.md tells the whole story.
 #pragma once
 
 #include "nacre/profile.hpp"

@@ -32,7 +32,7 @@ private:
 inline constexpr int maxBurleyTerms = 6;
 
 /// Burley's profile as Gaussian layers: `terms` [1 … 6] Gaussians per channel (least squares on the CDF; largest CDF
-/// error 0.212, 0.084, 0.041, 0.022, 0.012, 0.0072). Channels of equal d share layers, so there are terms … 3·terms.
+/// error 0.212, 0.0845, 0.041, 0.022, 0.012, 0.0073). Channels of equal d share layers, so there are terms … 3·terms.
 /// Throws std::invalid_argument on a term count or a d out of range.
 std::vector<Layer> burleyLayers(const Rgb& meanFreePath, int terms = maxBurleyTerms);
 

@@ -34,8 +34,8 @@ Kernel lineSpreadKernel(const Profile& profile, int tapCount, double radius = 0)
 /// The thesis's kernel (chapter 4.3, appendix A): 2·radius + 1 taps with weights from a slice R(x, 0) of the layers,
 /// times the tap's width, divided by their sum. It under-weights the tails (a slice is no line-spread) and is here
 /// because the thesis's figures are made with it; lineSpreadKernel costs the same and is 10 to 16 dB closer.
-/// Offsets are spaced quadratically over ±extent as in Jimenez's construction. A layer of variance 0 stays at the
-/// centre.
+/// Offsets are spaced quadratically over ±extent as in Jimenez's construction. A layer that is a point
+/// mass (SumOfGaussiansProfile) stays at the centre.
 ///
 /// tapRadius: [1 … 127] taps on either side. extent: [> 0] mm. Throws std::invalid_argument.
 Kernel sliceKernel(std::span<const Layer> layers, int tapRadius, double extent);

@@ -54,8 +54,8 @@ std::vector<Layer> makeLayers(const Material& material);
 
 /// Least rms radius [mm] of a profile's widest channel with which a material asks for second surfaces of itself: light
 /// that goes so far reaches from one fold of a body as large as a hand to the next. On the folds of the Stanford
-/// dragon, seen from its front at 1920x1080, jade (4.2 mm) has 42.7 dB without and 46.1 with them, marble (1.8 mm) 46.0
-/// and 48.8 (docs/scatter.md).
+/// dragon, seen from its front at 1920x1080, jade (4.2 mm) has 42.6 dB without and 46.1 with them, marble (1.8 mm) 45.8
+/// and 48.7 (docs/scatter.md).
 inline constexpr double secondSurfacesRadius = 3;
 
 /// Material::secondSurfaces or, where it is absent, whether the profile reaches secondSurfacesRadius. Throws

@@ -93,7 +93,7 @@ typedef enum NacreTechnique {
     NACRE_TECHNIQUE_DEFAULT = 0,   /**< the library's choice: NACRE_TECHNIQUE_BANK */
     NACRE_TECHNIQUE_SEPARABLE = 1, /**< two passes, line-spread kernels, world-space bilateral weights */
     NACRE_TECHNIQUE_BRUTE = 2,     /**< every pixel within the 99.9 % radius; slow, the reference of the others */
-    NACRE_TECHNIQUE_BANK = 3,      /**< mixtures of one bank of blurs; flat in radius, layers and materials */
+    NACRE_TECHNIQUE_BANK = 3,      /**< mixtures of one bank of blurs; flat in radius and layers, nearly so in materials */
     NACRE_TECHNIQUE_BURLEY = 4,    /**< one pass, importance samples of a disc, one per 4 px of it up to a budget; noisy */
     NACRE_TECHNIQUE_THESIS = 5,    /**< the baseline (Andersen, "Screen-Space Subsurface Scattering"): a pass pair per
                                         material, a radius in texels. Its own rules: material strength narrows the step
@@ -254,7 +254,9 @@ static inline NacreMaterial nacreDefaultMaterial(void) {
 typedef struct NacreImage {
     VkImageView view;        /**< VK_NULL_HANDLE = not given */
     VkFormat format;
-    VkImageLayout layout;    /**< the layout it is in, and stays in */
+    VkImageLayout layout;    /**< the layout it is in, and stays in: outputs VK_IMAGE_LAYOUT_GENERAL, inputs that or
+                                  SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL,
+                                  DEPTH_STENCIL_READ_ONLY_OPTIMAL or DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL */
     VkExtent2D extent;       /**< px */
     VkImageUsageFlags usage; /**< what it was created with; 0 = not stated, not checked */
 } NacreImage;
@@ -270,7 +272,7 @@ typedef struct NacreView {
                                            depth's) whole extent */
 } NacreView;
 
-/** Timestamps around every pass: passCount + 1 queries from firstQuery on (see nacreGetCost). The caller resets them. */
+/** Timestamps around every pass: passCount + 1 queries from firstQuery on (see nacreGetScatterCost and nacreGetTransmitCost). The caller resets them. */
 typedef struct NacreTimestamps {
     VkQueryPool pool;    /**< VK_NULL_HANDLE = none */
     uint32_t firstQuery;

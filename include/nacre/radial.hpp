@@ -13,7 +13,7 @@ using RadialFunction = std::function<double(int channel, double r)>;
 /// The radial density 2πrR is integrated over 1024 rings, graded towards the centre, and taken as even within each.
 /// Every integral is then exact for that distribution: a ring of radius ρ spreads over a line by the arcsine law, so
 /// ∫₋∞ˣ L = ½ + (1/π)·∫ 2πρR asin(min(1, x/ρ)) dρ, and rings sum in closed form. The CDF of smooth functions is right
-/// to about 1e-6. R may grow like 1/r towards the centre (Burley's does).
+/// to 3e-5, the response to an edge to 6e-6. R may grow like 1/r towards the centre (Burley's does).
 class RadialProfile final : public Profile {
 public:
     /// support: [> 0] mm, R is 0 beyond. Throws std::invalid_argument when the function returns NaN, infinity or less

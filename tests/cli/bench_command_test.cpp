@@ -38,9 +38,9 @@ protected:
 
     void makeReport() const {
         write("results.json", bench::sample::thesisResults());
-        const std::filesystem::path pictures = bench::sample::writePictures();
-        std::filesystem::copy(pictures / "off.png", folder() / "off.png");
-        std::filesystem::copy(pictures / "on.png", folder() / "on.png");
+        const bench::sample::Pictures pictures;
+        std::filesystem::copy(pictures.folder / "off.png", folder() / "off.png");
+        std::filesystem::copy(pictures.folder / "on.png", folder() / "on.png");
         const Outcome outcome = run({"bench", "report", "results.json"});
         ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
     }

@@ -251,7 +251,7 @@ TEST_F(MemoryTest, EveryIdMayBeSet) {
 
 TEST_F(MemoryTest, TablesBeyondTheDevicesLimitAreRefused) {
     if (gpu.properties.limits.maxStorageBufferRange >= 65536ull * 4624) {
-        return; // this device has room for them all
+        GTEST_SKIP() << "this device has room for all tables";
     }
     NacreContextInfo info = gpu.contextInfo(input_.extent);
     info.maxMaterials = 65535;

@@ -110,8 +110,7 @@ TEST_F(Quality, GalleryAndItsBodies) {
 TEST_F(Quality, ScannedHead) {
     const std::filesystem::path file = models / "head/infinite_head.gltf";
     if (!std::filesystem::exists(file)) {
-        std::puts("the scanned head is not here");
-        return;
+        GTEST_SKIP() << file << " is not here";
     }
     scene::Scene scene = scene::load(file);
     scene::assignMaterial(scene, *findPreset("skin"));
@@ -122,8 +121,7 @@ TEST_F(Quality, ScannedHead) {
 TEST_F(Quality, Dragon) {
     const std::filesystem::path file = models / "dragon/dragon_uv.glb";
     if (!std::filesystem::exists(file)) {
-        std::puts("the Stanford dragon is not here");
-        return;
+        GTEST_SKIP() << file << " is not here";
     }
     scene::Scene scene = scene::load(file);
     const scene::Bounds bounds = scene::bounds(scene);

@@ -5,6 +5,9 @@
 #include "app/bench/results.hpp"
 #include "scene/image.hpp"
 
+#include <unistd.h>
+
+#include <filesystem>
 #include <string>
 
 namespace nacre::bench::sample {
@@ -115,23 +118,31 @@ inline Results paretoResults() {
     return results;
 }
 
-/// Writes the pictures that thesisResults names to a new folder, and returns it: a ramp, and the same in red.
-inline std::filesystem::path writePictures() {
-    constexpr std::uint32_t width = 320;
-    constexpr std::uint32_t height = 180;
-    std::vector<std::uint8_t> grey(std::size_t{3} * width * height);
-    for (std::size_t i = 0; i < grey.size(); ++i) {
-        grey[i] = static_cast<std::uint8_t>(i / 3 % width * 255 / width);
+/// The pictures that thesisResults names, in a folder of their own for as long as this lives: a ramp, and the same in
+/// red.
+class Pictures {
+public:
+    Pictures() {
+        constexpr std::uint32_t width = 320;
+        constexpr std::uint32_t height = 180;
+        std::vector<std::uint8_t> grey(std::size_t{3} * width * height);
+        for (std::size_t i = 0; i < grey.size(); ++i) {
+            grey[i] = static_cast<std::uint8_t>(i / 3 % width * 255 / width);
+        }
+        std::vector<std::uint8_t> red = grey;
+        for (std::size_t i = 0; i < red.size(); i += 3) {
+            red[i] = 255;
+        }
+        std::filesystem::create_directories(folder);
+        scene::writePng(folder / "off.png", width, height, 3, grey);
+        scene::writePng(folder / "on.png", width, height, 3, red);
     }
-    std::vector<std::uint8_t> red = grey;
-    for (std::size_t i = 0; i < red.size(); i += 3) {
-        red[i] = 255;
-    }
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "nacre-bench-sample";
-    std::filesystem::create_directories(folder);
-    scene::writePng(folder / "off.png", width, height, 3, grey);
-    scene::writePng(folder / "on.png", width, height, 3, red);
-    return folder;
-}
+    Pictures(const Pictures&) = delete;
+    Pictures& operator=(const Pictures&) = delete;
+    ~Pictures() { std::filesystem::remove_all(folder); }
+
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("nacre-bench-sample-" + std::to_string(::getpid()));
+};
 
 } // namespace nacre::bench::sample

@@ -39,7 +39,7 @@ inline constexpr SceneKind heldOutSceneKinds[] = {SceneKind::Floor,  SceneKind::
 
 struct SceneSettings {
     SceneKind kind = SceneKind::Plane;
-    double footprint = 20; ///< px, the radius holding 99.7 % of the skin's light at the scene's middle depth
+    double footprint = 20; ///< px of 12.5 mm at the middle depth: 99.7 % of the widest test material's light
     int width = 320;
     int height = 180;
     std::uint32_t seed = 1;          ///< positions, sizes, shadows

@@ -134,7 +134,7 @@ TEST(BankProjection, WeightsAreSharesOfTheLight) {
 // The largest edge error over all scales, of the projection and of the table that stands for it.
 TEST(BankProjection, EdgeResponseIsClose) {
     // One Gaussian is the hardest: nothing but the two kernels around it can make it up, and of them the
-    // full-resolution blur and level 1 are furthest apart (variance 0.5 and 5 px²).
+    // full-resolution blur and level 1 are furthest apart (variance 0.5 and 11/3 px²).
     for (const NamedProfile& named : testProfiles()) {
         const double bound = std::string_view(named.name) == "one" ? 0.03 : 0.01;
         const BankTable table(*named.profile);

@@ -65,6 +65,18 @@ TEST(ImageError, EnlargesBetweenPixelsOfTheSameMaterial) {
     EXPECT_EQ(red, (std::vector<float>{0, 1, 3, 4, 100, 100}));
 }
 
+TEST(ImageError, EnlargesNaNToWhereItIsTheNeighbourAndNoFurther) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const IdentifiedPicture small = rowOf({4, 4, 4, 4, 4, 4, nan, nan, nan}, {1, 1, 1});
+    const IdentifiedPicture large = rowOf(std::vector<float>(18), {1, 1, 1, 1, 1, 1});
+    const std::vector<float> enlarged = enlarge(small, large);
+    std::vector<float> red;
+    for (std::size_t i = 0; i < enlarged.size(); i += 3) {
+        red.push_back(enlarged[i]);
+    }
+    EXPECT_EQ(red, (std::vector<float>{4, 4, 4, 3, 1, 0}));
+}
+
 TEST(ImageError, OfALinearPictureEnlargedIsNone) {
     IdentifiedPicture small{8, 8, {}, std::vector<float>(64, 1.0f)};
     IdentifiedPicture large{16, 16, {}, std::vector<float>(256, 1.0f)};

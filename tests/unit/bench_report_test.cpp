@@ -130,7 +130,7 @@ TEST(Pareto, MeansAreOverAllPicturesOfOneSize) {
 TEST(Conclusion, FollowsTheData) {
     Results results = thesisResults();
     const std::string text = conclude(results);
-    EXPECT_TRUE(contains(text, "On A device, with at least 100 frames")) << text;
+    EXPECT_TRUE(contains(text, "On A device, with at least 100 measurements of each of 66")) << text;
     EXPECT_TRUE(contains(text, "the thesis's technique grows by 20")) << text;
     EXPECT_TRUE(contains(text, "its straight line; the hardware of 2011 needed 1000 µs")) << text;
     EXPECT_TRUE(contains(text, "bank is flat within its confidence or the noise")) << text;
@@ -156,7 +156,7 @@ TEST(Conclusion, NamesTheFrontier) {
 
 TEST(Report, HasEverythingInItAndNothingOutside) {
     const Results results = thesisResults();
-    const std::string html = formatReport(results, writePictures());
+    const std::string html = formatReport(results, Pictures().folder);
     EXPECT_EQ(countOf(html, "<canvas"), 3u);
     EXPECT_EQ(countOf(html, "<figure class=\"pair\">"), results.images.size());
     EXPECT_EQ(countOf(html, "data:image/png;base64,"), 2 * results.images.size());
@@ -172,14 +172,14 @@ TEST(Report, SaysWhatTheSumOfThePassesIs) {
     results.measurements[0].passShare = 0.971;
     results.measurements[1].passShare = 1.0084;
     EXPECT_EQ(formatPassShares(results), "97.1 to 100.8 % (median 99 %)");
-    EXPECT_TRUE(contains(formatReport(results, writePictures()), formatPassShares(results)));
+    EXPECT_TRUE(contains(formatReport(results, Pictures().folder), formatPassShares(results)));
 }
 
 TEST(Report, NamesAreTextNotMarkup) {
     Results results = thesisResults();
     results.machine.device = "<script>alert(1)</script>";
     results.measurements[0].technique = "</script><b>";
-    const std::string html = formatReport(results, writePictures());
+    const std::string html = formatReport(results, Pictures().folder);
     EXPECT_FALSE(contains(html, "<script>alert"));
     EXPECT_FALSE(contains(html, "</script><b>"));
 }

@@ -264,6 +264,16 @@ TEST(Diff, FindsWhatGotSlower) {
     EXPECT_FALSE(compare(after, sample()).regressed()) << "faster is no regression";
 }
 
+TEST(Diff, GivesNoVerdictOnSingleFrames) {
+    Results before = sample();
+    Results after = sample();
+    before.measurements[1].frame = summarize(std::vector{1000.0});
+    after.measurements[1].frame = summarize(std::vector{2000.0});
+    const Comparison comparison = compare(before, after);
+    EXPECT_FALSE(comparison.regressed());
+    EXPECT_NE(formatComparison(comparison).find("measured too seldom to tell: 1\n"), std::string::npos);
+}
+
 TEST(Diff, TakesMoreForNoiseTheMoreItCompares) {
     // The sample has one floor in each run, of 2 %, and 6 times to compare: √(ln 6 / ln 2) = 1.61 times as much.
     Results after = sample();

@@ -168,6 +168,12 @@ TEST(Line, WhatRisesAndLevelsOffIsNotFlat) {
     EXPECT_TRUE(isFlat(line, 127, 38, 40, 0.02));
 }
 
+TEST(Ratio, OfTimesThatTheClockIsTooCoarseForIsOne) {
+    EXPECT_EQ(ratioOf(3, 2), 1.5);
+    EXPECT_EQ(ratioOf(0, 0), 1);
+    EXPECT_EQ(ratioOf(3, 0), 1);
+}
+
 TEST(NoiseFloor, IsTheDifferenceOfTheTwoOrTheirWidth) {
     EXPECT_NEAR(noiseFloor(around(100, 1), around(103, 1)), 0.03, 1e-12);
     EXPECT_NEAR(noiseFloor(around(100, 5), around(101, 1)), 0.05, 1e-12);
@@ -182,6 +188,17 @@ TEST(Verdict, NeedsMoreThanNoiseAndIntervalsApart) {
     EXPECT_EQ(comparePsnr(45, 44.5, 0.1), Verdict::Worse);
     EXPECT_EQ(comparePsnr(45, 45.5, 0.1), Verdict::Better);
     EXPECT_EQ(comparePsnr(45, 44.95, 0.1), Verdict::Same);
+}
+
+TEST(Verdict, IsUnknownWhereTooFewSamplesShowASpread) {
+    const Summary six = summarize(std::vector{100.0, 101.0, 102.0, 103.0, 104.0, 105.0});
+    const Summary sixLater = summarize(std::vector{200.0, 201.0, 202.0, 203.0, 204.0, 205.0});
+    EXPECT_EQ(compareTimes(six, sixLater, 0.01), Verdict::Worse);
+    for (const int count : {1, 2, 5}) {
+        const Summary few = summarize(std::vector<double>(static_cast<std::size_t>(count), 200.0));
+        EXPECT_EQ(compareTimes(six, few, 0.01), Verdict::Unknown) << count;
+        EXPECT_EQ(compareTimes(few, six, 0.01), Verdict::Unknown) << count;
+    }
 }
 
 TEST(Verdict, FindsTenPercentAndSeldomAnythingInNoise) {

@@ -268,6 +268,30 @@ TEST(GltfExtensions, MatchTheAttenuationOfVolumesThatDoNotScatter) {
     }
 }
 
+TEST(GltfExtensions, TakeMediaWithClearChannels) {
+    const Json colors[]{{1, 1, 1}, {1, 0.5, 0}, {0, 0, 0}};
+    for (const Json& attenuation : colors) {
+        for (const Json& scattered : colors) {
+            for (const double distance : {0.0, 1e-9, 0.004, std::numeric_limits<double>::max()}) {
+                const Json clear = {
+                    {"thicknessFactor", 0.02}, {"attenuationDistance", distance}, {"attenuationColor", attenuation}};
+                const Json scatter = {{"multiscatterColorFactor", scattered}, {"scatterAnisotropy", 1}};
+                const Json diffuse = {{"diffuseTransmissionFactor", 0.5}};
+                for (const Json& extensions :
+                     {Json{{"KHR_materials_volume", clear}},
+                      Json{{"KHR_materials_volume", clear}, {"KHR_materials_diffuse_transmission", diffuse}},
+                      Json{{"KHR_materials_volume", clear},
+                           {"KHR_materials_diffuse_transmission", diffuse},
+                           {"KHR_materials_volume_scatter", scatter}}}) {
+                    for (const Material& material : squareWith(extensions).load().materials) {
+                        EXPECT_EQ(findFault(material), "") << extensions;
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(GltfExtensions, NameTheFieldThatIsOutOfRange) {
     EXPECT_EQ(squareWith({{"KHR_materials_volume", {{"thicknessFactor", -2}}}}).error(),
               "test.glb: materials[0].extensions.KHR_materials_volume.thicknessFactor is -2, must be 0 to 1e+09");

@@ -114,8 +114,9 @@ TEST(MaterialFile, RefusesWhatIsNoJson) {
 class MaterialFiles : public testing::Test {
 protected:
     MaterialFiles() {
-        directory_ = std::filesystem::temp_directory_path() /
-                     (std::string("nacre-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+        directory_ =
+            std::filesystem::temp_directory_path() / ("nacre-" + std::to_string(::getpid()) + "-" +
+                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::remove_all(directory_);
         std::filesystem::create_directories(directory_);
     }

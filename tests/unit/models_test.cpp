@@ -127,10 +127,16 @@ TEST(Models, SharedOnesLoadWherePresent) {
                                                       {"lucy/Lucy100k.ply", "100000"},
                                                       {"sorrel-plant/sorrel_plant.gltf", "3818"}};
     const fs::path folder = NACRE_SOURCE_DIR "/../shared/models";
+    std::string missing;
     for (const auto& [name, triangles] : expected) {
         if (fs::exists(folder / name)) {
             EXPECT_EQ(outcome(folder / name), triangles) << name;
+        } else {
+            missing += ' ' + name;
         }
+    }
+    if (!missing.empty()) {
+        GTEST_SKIP() << folder << " has not" << missing;
     }
 }
 

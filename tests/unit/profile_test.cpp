@@ -176,6 +176,22 @@ TEST(Radial, ReadsATable) {
     }
 }
 
+TEST(Radial, ComesWithinTheStatedErrors) {
+    const BurleyProfile burley({1, 0.4, 0.1});
+    const SumOfGaussiansProfile skin(findPreset("skin")->layers);
+    for (const Profile* exact : {static_cast<const Profile*>(&burley), static_cast<const Profile*>(&skin)}) {
+        const double support = exact->quantileRadius(0.99999999);
+        const RadialProfile profile([&](int channel, double r) { return exact->radial(channel, r); }, support);
+        for (int channel = 0; channel < 3; ++channel) {
+            for (double r = 1e-5 * support; r < support; r *= 1.01) {
+                ASSERT_NEAR(profile.cdf(channel, r), exact->cdf(channel, r), 3e-5) << r;
+                ASSERT_NEAR(profile.lineSpreadCumulative(channel, r), exact->lineSpreadCumulative(channel, r), 6e-6)
+                    << r;
+            }
+        }
+    }
+}
+
 TEST(Radial, RefusesWhatIsNoProfile) {
     EXPECT_THROW(RadialProfile([](int, double) { return 1.0; }, 0), std::invalid_argument);
     EXPECT_THROW(RadialProfile([](int, double) { return 0.0; }, 1), std::invalid_argument);
