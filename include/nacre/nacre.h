@@ -282,11 +282,12 @@ typedef struct NacreScatterInfo {
     NacreView view;
     uint32_t frame;           /**< [0 … framesInFlight) the one last given to nacreBeginFrame */
     NacreTechnique technique; /**< 0 = default */
-    NacreImage irradiance;    /**< diffuse light without albedo and specular, linear */
+    NacreImage irradiance;    /**< diffuse light without albedo and specular, linear, [0, 65504]; what lies beyond may be
+                                   taken for the nearer of the two */
     NacreImage depth;
     NacreImage materialId;    /**< R8 or R16 uint; 0 or an id never set = no subsurface scattering */
-    NacreImage normal;        /**< optional, world space in xyz: value·normalScale + normalBias; without it area weights
-                                   come from depth differences */
+    NacreImage normal;        /**< optional, world space in xyz: value·normalScale + normalBias; `brute` and `burley` take
+                                   the surface's slope from it, without it from depth differences; others do not read it */
     float normalScale;        /**< 0 = 1 */
     float normalBias;
     NacreImage strength;      /**< optional, red: multiplies the material's strength; without it 1 */
