@@ -272,7 +272,8 @@ typedef struct NacreView {
                                            depth's) whole extent */
 } NacreView;
 
-/** Timestamps around every pass: passCount + 1 queries from firstQuery on (see nacreGetScatterCost and nacreGetTransmitCost). The caller resets them. */
+/** Timestamps around every pass: passCount + 1 queries from firstQuery on (see nacreGetScatterCost and
+ *  nacreGetTransmitCost). The caller resets them. */
 typedef struct NacreTimestamps {
     VkQueryPool pool;    /**< VK_NULL_HANDLE = none */
     uint32_t firstQuery;
