@@ -185,9 +185,9 @@ TEST(Report, NamesAreTextNotMarkup) {
 }
 
 TEST(Report, TakesNoFilesButThoseBesideTheResults) {
-    const std::filesystem::path folder = writePictures();
+    const Pictures pictures;
+    const std::filesystem::path& folder = pictures.folder;
     const std::filesystem::path link = folder / "link.png";
-    std::filesystem::remove(link);
     std::filesystem::create_symlink("/etc/hostname", link);
     for (const std::string& file :
          {std::string("/etc/hostname"), std::string("../off.png"), link.filename().string()}) {
@@ -200,7 +200,6 @@ TEST(Report, TakesNoFilesButThoseBesideTheResults) {
             EXPECT_TRUE(contains(error.what(), "is not beside results.json")) << error.what();
         }
     }
-    std::filesystem::remove(link);
 }
 
 TEST(Report, SaysWhichPictureIsMissing) {
