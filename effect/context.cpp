@@ -4,6 +4,7 @@
 #include "validation.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 
 namespace nacre::effect {
@@ -115,6 +116,10 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
     context.uniforms = createUniforms(context, frames, records);
 }
 
+static_assert(offsetof(NacreContextInfo, headerVersion) == 0 &&
+              offsetof(NacreContextInfo, messageCallback) == sizeof(void*) &&
+              offsetof(NacreContextInfo, userData) == 2 * sizeof(void*));
+
 void checkVersion(const NacreContextInfo& info) {
     if (info.headerVersion != NACRE_HEADER_VERSION) {
         fail(NACRE_ERROR_VERSION_MISMATCH, "NacreContextInfo::headerVersion is 0x", std::hex, info.headerVersion,
@@ -181,7 +186,7 @@ void beginFrame(Context& context, std::uint32_t index) {
     }
     context.materials->update(index);
     Frame& frame = context.frames[index];
-    frame.begun = true;
+    context.frame = index;
     frame.scatter.used = 0;
     frame.transmit.used = 0;
 }

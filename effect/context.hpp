@@ -29,7 +29,6 @@ struct Records {
 };
 
 struct Frame {
-    bool begun = false;
     Records scatter;
     Records transmit;
 };
@@ -76,6 +75,7 @@ struct Context {
     Buffer uniforms;
     Owned<VkDescriptorPool> pool;
     std::vector<Frame> frames;
+    std::optional<std::uint32_t> frame; ///< last given to nacreBeginFrame
 };
 
 /// Runs `body`; what it throws becomes a result code and a message.
@@ -113,7 +113,7 @@ Buffer createUniforms(const Context& context, std::uint32_t frames, std::uint32_
 /// Descriptor sets of all frames, and each one's part of the uniform buffer
 /// (frames.cpp).
 void createFrames(Context& context, std::uint32_t frames, std::uint32_t recordsPerFrame);
-/// The next unused record of a kind; throws when the frame was not begun or has none left.
+/// The next unused record of a kind; throws when the frame is not the one last begun or has none left.
 Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info);
 
 /// The index in `techniques` of a technique the context is made for; throws a Failure naming `field` (scatter.cpp).

@@ -95,8 +95,8 @@ Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, 
         fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", the context has ", context.frames.size(),
              " frames in flight");
     }
-    if (!context.frames[frame].begun) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::frame is ", frame, ", which nacreBeginFrame has not begun");
+    if (frame != context.frame) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::frame is ", frame, ", not the one last given to nacreBeginFrame");
     }
     Records& records = context.frames[frame].*kind;
     if (records.used == records.records.size()) {

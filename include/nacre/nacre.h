@@ -185,7 +185,10 @@ typedef struct NacreMemoryRequirements {
 } NacreMemoryRequirements;
 
 typedef struct NacreContextInfo {
-    uint32_t headerVersion; /**< NACRE_HEADER_VERSION */
+    uint32_t headerVersion; /**< NACRE_HEADER_VERSION. This and the next two stand first in every version, so that
+                                 NACRE_ERROR_VERSION_MISMATCH can be told */
+    NacreMessageCallback messageCallback; /**< null = silent */
+    void* userData;                       /**< handed to messageCallback */
     VkInstance instance;
     VkPhysicalDevice physicalDevice;
     VkDevice device;
@@ -203,8 +206,6 @@ typedef struct NacreContextInfo {
                                     in buffers no larger than the device's maxStorageBufferRange: where that is 128 MiB,
                                     65535 of separable, 5432 of bank */
     uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
-    NacreMessageCallback messageCallback; /**< null = silent */
-    void* userData;            /**< handed to messageCallback */
     NacreMemory deviceMemory;  /**< for the intermediates; null = the library allocates. nacreResize has to do with it, too */
     NacreMemory hostMemory;    /**< for materials and parameters; null = the library allocates */
     VkBool32 shaderFloat16;    /**< the device was made with VkPhysicalDeviceVulkan12Features::shaderFloat16: where there
