@@ -56,25 +56,18 @@ void MemoryLayout::add(Buffer* buffer, Image* image, const VkMemoryRequirements&
 Owned<VkDeviceMemory> MemoryLayout::allocate(MemoryUse use) const {
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     info.allocationSize = requirements_.size;
-    VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     for (const std::uint32_t type : memoryTypes(device_, requirements_, use)) {
         info.memoryTypeIndex = type;
         VkDeviceMemory memory = VK_NULL_HANDLE;
-        result = device_.vk.AllocateMemory(device_.handle, &info, device_.allocator, &memory);
-        if (result == VK_SUCCESS) {
+        const VkResult result = device_.vk.AllocateMemory(device_.handle, &info, device_.allocator, &memory);
+        if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+            check(result, "vkAllocateMemory");
             return {device_, memory, device_.vk.FreeMemory};
         }
-        if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
-            break;
-        }
     }
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
-        fail(NACRE_ERROR_OUT_OF_MEMORY, "the device has no ", requirements_.size, " bytes of ",
-             use == MemoryUse::Host ? "host-visible" : "device", " memory for the effect (memoryTypeBits 0x", std::hex,
-             requirements_.memoryTypeBits, ")");
-    }
-    check(result, "vkAllocateMemory");
-    return {};
+    fail(NACRE_ERROR_OUT_OF_MEMORY, "the device has no ", requirements_.size, " bytes of ",
+         use == MemoryUse::Host ? "host-visible" : "device", " memory for the effect (memoryTypeBits 0x", std::hex,
+         requirements_.memoryTypeBits, ")");
 }
 
 Owned<VkDeviceMemory> MemoryLayout::place(MemoryUse use, const NacreMemory& given, const char* field) const {

@@ -71,16 +71,16 @@ struct FullHeap {
         return reinterpret_cast<PFN_vkVoidFunction>(function);
     }
     static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
-        const std::string_view asked(name);
-        return asked == "vkAllocateMemory"                ? plain(&allocate)
-               : asked == "vkGetBufferMemoryRequirements" ? plain(&requirements)
-                                                          : vkGetDeviceProcAddr(device, name);
+        const std::string_view function(name);
+        return function == "vkAllocateMemory"                ? plain(&allocate)
+               : function == "vkGetBufferMemoryRequirements" ? plain(&requirements)
+                                                             : vkGetDeviceProcAddr(device, name);
     }
     static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
-        const std::string_view asked(name);
-        return asked == "vkGetDeviceProcAddr"                   ? plain(&deviceFunction)
-               : asked == "vkGetPhysicalDeviceMemoryProperties" ? plain(&properties)
-                                                                : vkGetInstanceProcAddr(instance, name);
+        const std::string_view function(name);
+        return function == "vkGetDeviceProcAddr"                   ? plain(&deviceFunction)
+               : function == "vkGetPhysicalDeviceMemoryProperties" ? plain(&properties)
+                                                                   : vkGetInstanceProcAddr(instance, name);
     }
 };
 
