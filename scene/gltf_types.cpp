@@ -1,5 +1,7 @@
 #include "scene/gltf_types.hpp"
 
+#include "scene/json_text.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -101,9 +103,7 @@ void check(const GltfFile& file, const Json& object, const std::string& name, st
         if (!hasType(object[pointer], type)) {
             std::string path = name + (member + (name.empty() ? 1 : 0)); // without the first slash
             std::ranges::replace(path, '/', '.');
-            std::string text = object[pointer].dump(-1, ' ', false, Json::error_handler_t::replace);
-            text = text.size() > 60 ? text.substr(0, 57) + "..." : text;
-            failGltf(file, path + " is " + text + ", must be " + describe(type));
+            failGltf(file, path + " is " + shorten(object[pointer]) + ", must be " + describe(type));
         }
     }
 }

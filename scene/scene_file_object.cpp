@@ -1,5 +1,7 @@
 #include "scene/scene_file_object.hpp"
 
+#include "scene/json_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,11 +24,6 @@ std::string describe(const NumberRange& range) {
     const std::string low = format(range.low);
     return "a number " + (range.lowExcluded ? "above " + low + " and at most " : "from " + low + " to ") +
            format(range.high);
-}
-
-std::string shorten(const Json& value) {
-    std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
 bool isInside(double value, const NumberRange& range) {
