@@ -45,7 +45,6 @@ const int secondLevels = 0;
 const int tileSize = 16; // px, of pass A; level l has tileSize / 2^l texels a side in each tile
 const ivec2 partSize = ivec2(16, 8); // px, of an edge region; a smooth one is 2x2 of these
 const int rawLevels = 4; // levels 5 and 6 are reduced by the blur
-const float maxHalf = 65504.0;
 // Of a raw texel's last word, from level 2 on: 0 = empty.
 const uint massBits = 0x3fffu;
 const uint fullMass = 0x3c00u;

@@ -21,6 +21,9 @@ layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredI
 #define view parameters.view
 #include "view.glsl"
 
+// The largest light of an intermediate of half floats; larger would be infinite, and the next pass would spread it.
+const float maxHalf = 65504.0;
+
 // The slot of a pixel's material, 0 where there is no subsurface scattering.
 uint materialOfId(uint id) {
     return slots[id & (materialIdCount - 1u)];

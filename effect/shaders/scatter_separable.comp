@@ -15,8 +15,6 @@ layout(set = 0, binding = bindingIntermediates + intermediateRows, rgba16f) unif
 // Taps on either side. Up to this footprint every pixel is a tap; beyond, taps move apart quadratically. 32 keeps the
 // step that one tap makes in a shadow edge's response under 1 % at 60 px.
 const int maxTaps = 32;
-// The intermediate's largest value.
-const float maxHalf = 65504.0;
 
 // Half the line-spread's mass within ±x mm.
 vec3 massWithin(uint material, float x) {

@@ -55,7 +55,6 @@ NACRE_DECLARE_TAP(16)
 
 // 1 / tan of half the listing's field of view, 55 degrees.
 const float projectionDistance = 1.92098213;
-const float maxHalf = 65504.0; // the intermediate's largest value
 
 struct CachedPixel {
     vec4 color; // alpha: strength, 0 = not of this material
