@@ -39,8 +39,8 @@ protected:
     void makeReport() const {
         write("results.json", bench::sample::thesisResults());
         const bench::sample::Pictures pictures;
-        std::filesystem::copy(pictures.folder / "off.png", folder() / "off.png");
-        std::filesystem::copy(pictures.folder / "on.png", folder() / "on.png");
+        std::filesystem::copy(pictures.path / "off.png", folder() / "off.png");
+        std::filesystem::copy(pictures.path / "on.png", folder() / "on.png");
         const Outcome outcome = run({"bench", "report", "results.json"});
         ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
     }

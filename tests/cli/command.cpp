@@ -9,21 +9,12 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <stdexcept>
 
 namespace nacre::test {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path makeFolder(const std::string& prefix) {
-    std::string name = (fs::temp_directory_path() / (prefix + "-XXXXXX")).string();
-    if (mkdtemp(name.data()) == nullptr) {
-        throw std::runtime_error("no temporary folder");
-    }
-    return name;
-}
 
 void redirect(const fs::path& file, int descriptor) {
     const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -67,17 +58,16 @@ f 4 1 5 8
 )";
 
 Outcome runNacre(const std::vector<std::string>& arguments, const fs::path& folder, const Environment& environment) {
-    const fs::path logs = makeFolder("nacre-log");
+    const tests::TemporaryFolder temporary;
+    const fs::path& logs = temporary.path;
     const pid_t process = fork();
     if (process == 0) {
         becomeNacre(arguments, folder, logs, environment);
     }
     int status = 0;
     waitpid(process, &status, 0);
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(logs / "output"),
-                    readText(logs / "error")};
-    fs::remove_all(logs);
-    return outcome;
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(logs / "output"),
+            readText(logs / "error")};
 }
 
 std::vector<std::string> complaints(const Outcome& outcome) {
@@ -110,16 +100,10 @@ void writeText(const fs::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-CommandTest::CommandTest() : folder_(makeFolder("nacre-test")) {}
-
-CommandTest::~CommandTest() {
-    fs::remove_all(folder_);
-}
-
 std::vector<std::string> CommandTest::files() const {
     std::vector<std::string> names;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_)) {
-        names.push_back(fs::relative(entry.path(), folder_).string());
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder())) {
+        names.push_back(fs::relative(entry.path(), folder()).string());
     }
     std::ranges::sort(names);
     return names;

@@ -1,6 +1,8 @@
 // Runs the command `nacre` as a user would, and looks at what it leaves behind.
 #pragma once
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -37,18 +39,15 @@ extern const char* const cubeObj;
 /// A test with a folder of its own, removed afterwards.
 class CommandTest : public testing::Test {
 protected:
-    CommandTest();
-    ~CommandTest() override;
-
     Outcome run(const std::vector<std::string>& arguments, const Environment& environment = {}) const {
-        return runNacre(arguments, folder_, environment);
+        return runNacre(arguments, folder(), environment);
     }
     /// Names of the files in the folder, sorted.
     std::vector<std::string> files() const;
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path; }
 
 private:
-    std::filesystem::path folder_;
+    tests::TemporaryFolder folder_;
 };
 
 } // namespace nacre::test

@@ -4,10 +4,8 @@
 #include "app/bench/fits.hpp"
 #include "app/bench/results.hpp"
 #include "scene/image.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <string>
 
 namespace nacre::bench::sample {
@@ -120,8 +118,7 @@ inline Results paretoResults() {
 
 /// The pictures that thesisResults names, in a folder of their own for as long as this lives: a ramp, and the same in
 /// red.
-class Pictures {
-public:
+struct Pictures : tests::TemporaryFolder {
     Pictures() {
         constexpr std::uint32_t width = 320;
         constexpr std::uint32_t height = 180;
@@ -133,16 +130,9 @@ public:
         for (std::size_t i = 0; i < red.size(); i += 3) {
             red[i] = 255;
         }
-        std::filesystem::create_directories(folder);
-        scene::writePng(folder / "off.png", width, height, 3, grey);
-        scene::writePng(folder / "on.png", width, height, 3, red);
+        scene::writePng(path / "off.png", width, height, 3, grey);
+        scene::writePng(path / "on.png", width, height, 3, red);
     }
-    Pictures(const Pictures&) = delete;
-    Pictures& operator=(const Pictures&) = delete;
-    ~Pictures() { std::filesystem::remove_all(folder); }
-
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("nacre-bench-sample-" + std::to_string(::getpid()));
 };
 
 } // namespace nacre::bench::sample

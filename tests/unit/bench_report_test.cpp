@@ -156,7 +156,7 @@ TEST(Conclusion, NamesTheFrontier) {
 
 TEST(Report, HasEverythingInItAndNothingOutside) {
     const Results results = thesisResults();
-    const std::string html = formatReport(results, Pictures().folder);
+    const std::string html = formatReport(results, Pictures().path);
     EXPECT_EQ(countOf(html, "<canvas"), 3u);
     EXPECT_EQ(countOf(html, "<figure class=\"pair\">"), results.images.size());
     EXPECT_EQ(countOf(html, "data:image/png;base64,"), 2 * results.images.size());
@@ -172,21 +172,21 @@ TEST(Report, SaysWhatTheSumOfThePassesIs) {
     results.measurements[0].passShare = 0.971;
     results.measurements[1].passShare = 1.0084;
     EXPECT_EQ(formatPassShares(results), "97.1 to 100.8 % (median 99 %)");
-    EXPECT_TRUE(contains(formatReport(results, Pictures().folder), formatPassShares(results)));
+    EXPECT_TRUE(contains(formatReport(results, Pictures().path), formatPassShares(results)));
 }
 
 TEST(Report, NamesAreTextNotMarkup) {
     Results results = thesisResults();
     results.machine.device = "<script>alert(1)</script>";
     results.measurements[0].technique = "</script><b>";
-    const std::string html = formatReport(results, Pictures().folder);
+    const std::string html = formatReport(results, Pictures().path);
     EXPECT_FALSE(contains(html, "<script>alert"));
     EXPECT_FALSE(contains(html, "</script><b>"));
 }
 
 TEST(Report, TakesNoFilesButThoseBesideTheResults) {
     const Pictures pictures;
-    const std::filesystem::path& folder = pictures.folder;
+    const std::filesystem::path& folder = pictures.path;
     const std::filesystem::path link = folder / "link.png";
     std::filesystem::create_symlink("/etc/hostname", link);
     for (const std::string& file :

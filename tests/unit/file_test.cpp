@@ -1,6 +1,8 @@
 // Whole files out: a killed process leaves nothing behind, and what is replaced keeps its mode and its links.
 #include "nacre/files.hpp"
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -18,14 +20,10 @@ using Bytes = std::vector<std::uint8_t>;
 
 class Files : public testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
+    std::size_t fileCount() const { return temporary.fileCount(); }
 
-    std::size_t fileCount() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-    }
-
-    const fs::path folder = fs::temp_directory_path() / ("nacre-file-" + std::to_string(::getpid()));
+    const nacre::tests::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path;
 };
 
 /// Writes more than the process may, in a child; how that ended.

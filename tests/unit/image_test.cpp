@@ -1,8 +1,9 @@
 // Image files: what is written is what is read, files appear whole or not at all, damage is a sentence.
 #include "scene/image.hpp"
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -15,19 +16,15 @@ namespace {
 
 class Image : public testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
-
-    std::size_t fileCount() const {
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-    }
+    std::size_t fileCount() const { return temporary.fileCount(); }
     fs::path store(const std::string& name, std::span<const std::uint8_t> bytes) const {
         std::ofstream(folder / name, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
         return folder / name;
     }
 
-    const fs::path folder = fs::temp_directory_path() / ("nacre-image-" + std::to_string(::getpid()));
+    const nacre::tests::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path;
 };
 
 template <typename Action> std::string errorOf(Action action) {

@@ -3,6 +3,7 @@
 
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -34,13 +35,12 @@ template <typename Action> std::string errorOf(Action action) {
 
 class Import : public testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
     fs::path store(const std::string& name, const std::string& text) const {
         std::ofstream(folder / name, std::ios::binary) << text;
         return folder / name;
     }
-    const fs::path folder = fs::temp_directory_path() / ("nacre-import-" + std::to_string(::getpid()));
+    const nacre::tests::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path;
 };
 
 /// A sphere of latitude and longitude as a list of facets.

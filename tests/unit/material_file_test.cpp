@@ -1,5 +1,7 @@
 #include "nacre/files.hpp"
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -113,15 +115,8 @@ TEST(MaterialFile, RefusesWhatIsNoJson) {
 
 class MaterialFiles : public testing::Test {
 protected:
-    MaterialFiles() {
-        directory_ =
-            std::filesystem::temp_directory_path() / ("nacre-" + std::to_string(::getpid()) + "-" +
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(directory_);
-        std::filesystem::create_directories(directory_);
-    }
-    ~MaterialFiles() override { std::filesystem::remove_all(directory_); }
-    std::filesystem::path directory_;
+    const nacre::tests::TemporaryFolder temporary_;
+    const std::filesystem::path& directory_ = temporary_.path;
 };
 
 TEST_F(MaterialFiles, SavesWhatItLoads) {

@@ -2,10 +2,10 @@
 #include "scene/scene_file.hpp"
 
 #include "scene/import.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <fstream>
 #include <numbers>
@@ -22,7 +22,6 @@ namespace {
 class SceneFile : public testing::Test {
 protected:
     void SetUp() override {
-        fs::create_directories(folder);
         std::ofstream(folder / "triangle.obj") << "mtllib triangle.mtl\no triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
                                                   "usemtl red\nf 1 2 3\n";
         std::ofstream(folder / "triangle.mtl") << "newmtl red\nKd 1 0 0\n";
@@ -31,7 +30,6 @@ protected:
         sky << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
         sky.write("\x80\x80\x80\x81\x80\x80\x80\x82", 8);
     }
-    void TearDown() override { fs::remove_all(folder); }
 
     Scene read(const std::string& text) const {
         const fs::path file = folder / "scene.json";
@@ -52,7 +50,8 @@ protected:
         return "";
     }
 
-    const fs::path folder = fs::temp_directory_path() / ("nacre-scene-file-" + std::to_string(::getpid()));
+    const nacre::tests::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path;
 };
 
 Json minimal() {
