@@ -197,7 +197,7 @@ int listPlace(int kind, uint entry) {
 struct ListEntry {
     ivec2 part;    // its first
     uint left;     // of a smooth one: bits of the parts that it leaves out
-    uint occupied; // occupiedBit of the tiles that it reads and that have tileOccupied
+    uint occupied; // occupiedBit of the tiles that it reads and that have tileOccupied; tileBright, if one of them has it
 };
 
 // Of a tile that lies so far from the one left of and above the region's first, and of all that a region of either kind reads.
@@ -227,6 +227,10 @@ uint tileRough(ivec2 block) {
     int column = (block.x > 0 ? 1 : 0) + (block.x == 7 ? 1 : 0);
     return 2u << (3 * row + column);
 }
+
+// Whether light enters there that is negative or too large for sums of two differences in half floats.
+const uint tileBright = 1u << 19;
+const float mostDimLight = 0.5 * maxHalf;
 
 int texelIndex(int level, ivec2 texel) {
     ivec4 place = parameters.bankLevels[level];

@@ -283,6 +283,15 @@ Reduced reduceAny(Block block, Sides sides, bool hasStep) {
     return result;
 }
 
+// Of the four pixels, as bits: those of light that is negative or not finite are larger than any other's.
+uint largestLight(Block block) {
+    uvec3 largest = uvec3(0u);
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        largest = max(largest, floatBitsToUint(block.light[i]));
+    }
+    return max(max(largest.r, largest.g), largest.b);
+}
+
 Reduced reduceBlock(Block block, int place, ivec2 texel) {
     Sides sides = sidesOf(place);
     float width = texelWidth(0, block.depth[0]);
@@ -291,7 +300,10 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
     bool plain = isPlain(around, width);
     if (plain) {
         reduced = reducePlain(block, sides, width);
-        plain = isFinite(reduced.texel.light);
+    }
+    if (largestLight(block) > floatBitsToUint(mostDimLight)) {
+        atomicOr(roughness, tileBright);
+        plain = plain && isFinite(reduced.texel.light);
     }
     if (!plain) {
         float farthest = max(max(block.depth[0], block.depth[1]), max(block.depth[2], block.depth[3]));

@@ -48,6 +48,20 @@ void storeLevelSecond(Coarse coarse, uvec2 surface) {
     }
 }
 
+// Returns its material.
+uint storeFetched(Region region, ivec2 place, Fetched fetched) {
+    uint material = decodeFetched(region, place, fetched);
+    float area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));
+    bool receives = material != 0u && fetched.depth > 0.0;
+    int index = pixelPlace(place + 1);
+    storePixel(index, storableLight(fetched.light), area, receives && isFinite(fetched.light));
+    pixelDepths[index] = receives ? fetched.depth : 0.0;
+    if (separateMaterials) {
+        pixelMaterials[index] = material;
+    }
+    return material;
+}
+
 // Fetches everything before anything is used, so that the fetches overlap: one half of the threads the pixels around, the
 // other the coarser levels. Returns the material of the thread's pixel.
 uint loadRegion(Region region, int thread, ivec2 local) {

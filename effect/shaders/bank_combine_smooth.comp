@@ -12,8 +12,8 @@ const bool isEdge = false;
 
 shared uvec2 fineLights[fineCount]; // of level 1's texels: light times mass, and mass
 
-// What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is; never
-// as sums of differences, which may be larger than a half float is.
+// What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is. Sums of two
+// differences are made of pixels alone (isBright).
 #ifdef HALF_FLOATS
 #define Real float16_t
 #define Real2 f16vec2
@@ -36,16 +36,10 @@ uvec2 packLight(Light light) {
 }
 #endif
 
-// The mean of three, whose first and last weigh `beside` times as much as the middle one. Mixed one after the other: of two
-// differences with one weight a compiler may make the sum first.
-Light mixBeside(Light before, Light middle, Light after, float beside) {
-    Light mixed = fma(Light(beside / (1.0 + beside)), before - middle, middle);
-    return fma(Light(beside / (1.0 + 2.0 * beside)), after - mixed, mixed);
-}
-
 // The full-resolution 3x3 of a quad on a slope: taps have its depths, which makes their weights separable, `beside` the
 // middle in x and y.
 void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
+    vec2 side = beside / (1.0 + 2.0 * beside);
     Light rows[4][2]; // the block's rows, filtered along x for the quad's two columns
     [[unroll]] for (int y = 0; y < 4; ++y) {
         Light row[4];
@@ -53,13 +47,15 @@ void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
             row[x] = storedLight(pixelLights[ownPlace(thread, ivec2(x, y) - 1)]);
         }
         [[unroll]] for (int x = 0; x < 2; ++x) {
-            rows[y][x] = mixBeside(row[x], row[x + 1], row[x + 2], beside.x);
+            Light middle = row[x + 1];
+            rows[y][x] = fma(Light(side.x), row[x] - middle, fma(Light(side.x), row[x + 2] - middle, middle));
         }
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int x = i & 1;
         int y = i >> 1;
-        result[i] = mixBeside(rows[y][x], rows[y + 1][x], rows[y + 2][x], beside.y);
+        Light middle = rows[y + 1][x]; // added last, so that only once all of it is rounded
+        result[i] = fma(Light(side.y), (rows[y][x] - middle) + (rows[y + 2][x] - middle), middle);
     }
 }
 
@@ -279,6 +275,12 @@ bool hasMaterial(Quad quad, int i, uint material) {
     return (difference & ((i & 1) == 0 ? 0xffffu : 0xffff0000u)) == 0u;
 }
 
+// Half of a texel's light.
+uvec2 dimmed(uvec2 words) {
+    vec2 blueAndMass = unpackHalf2x16(words.y);
+    return uvec2(packHalf2x16(0.5 * unpackHalf2x16(words.x)), packHalf2x16(vec2(0.5 * blueAndMass.x, blueAndMass.y)));
+}
+
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
 Quad loadRegion(Region region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
@@ -309,6 +311,16 @@ Quad loadRegion(Region region, int thread, ivec2 texel) {
             lights[i] *= albedoBefore(pixel + view.areaOffset, pixelMaterial(quad.materials, ivec2(i & 1, i >> 1)));
         }
     }
+    uint ringMaterial = decodeFetched(region, ring, ringPixel);
+    if (isBright(region)) {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            lights[i] = 0.5 * storableLight(lights[i]);
+        }
+        ringPixel.light = 0.5 * storableLight(ringPixel.light);
+        fineTexel.xy = dimmed(fineTexel.xy);
+        ringLight = dimmed(ringLight);
+        coarseLight = dimmed(coarseLight);
+    }
     storeFine(texel, fineTexel.xy);
     if (ringThread < fineRingCount) {
         storeFine(fineRing, ringLight);
@@ -319,10 +331,10 @@ Quad loadRegion(Region region, int thread, ivec2 texel) {
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        storePixel(ownPlace(texel, offset), lights[i], 0.0, 0.0, hasMaterial(quad, i, 0u) ? 0u : 1u);
+        storePixel(ownPlace(texel, offset), lights[i], 1.0, !hasMaterial(quad, i, 0u));
     }
     if (thread < ringCount) {
-        storeFetched(region, ring, ringPixel);
+        storePixel(pixelPlace(ring + 1), ringPixel.light, 1.0, ringMaterial != 0u);
     }
     return quad;
 }
@@ -384,6 +396,7 @@ void main() {
             filterFinestLevel(lights, texel, beside);
             addKernel(sum, kernelWeight(mixture, 2), lights);
         }
+        sum.mass *= isBright(region) ? 0.5 : 1.0; // light is half of what it is
         storeGroup(first, members, material, strengthOf(mixture), sum);
     }
     if (scattering != 15u) {

@@ -42,7 +42,7 @@ Combination combinationOf(ivec2 region) {
         ivec2 place = ivec2(i % 4, i / 4) - 1;
         ivec2 tile = first + place;
         uint entry = isInLevel(rawLevels, tile) ? tileEntries[tileIndex(tile)] : 0u;
-        occupied |= (entry & tileOccupied) != 0u ? occupiedBit(place + 1) : 0u;
+        occupied |= (entry & tileOccupied) != 0u ? occupiedBit(place + 1) | entry & tileBright : 0u;
         [[unroll]] for (int part = 0; part < 4; ++part) {
             rough |= (entry & roughBeside(place - ivec2(part & 1, 0), part > 1)) != 0u ? 1u << part : 0u;
         }

@@ -21,7 +21,7 @@ shared vec2 surfaceDepths[4];
 const int pitch = tileSize + 2;
 shared uint depths[pitch * pitch];
 shared uint occupied; // whether some pixel has an id
-shared uint roughness; // tileRough of the tile's blocks, and notFull
+shared uint roughness; // tileRough of the tile's blocks, tileBright, and notFull
 // Of a tile that is not whole, nearest and farthest depth of level 1, as bits, whose order is the depths'.
 shared uint nearest;
 shared uint farthest;
@@ -283,7 +283,7 @@ void main() {
     // A tile is whole where no pixel is missing and no step from pixel to pixel is longer than bankSmoothDepth pixel widths (with
     // second surfaces: bankContinuedStep), so that the four that a texel is made of are no further apart than
     // bankSurfaceSeparation (bankSecondSeparation) times its width: one surface on every level.
-    bool isWhole = roughness == 0u;
+    bool isWhole = (roughness & ~tileBright) == 0u;
     if (!separateMaterials && (isWhole || isOneSurface(texel.y * side + texel.x, second != uvec4(0u)))) {
         reduceOneSurface(tile, thread);
         return;

@@ -80,7 +80,13 @@ int fineTexelIndex(Region region, ivec2 texel) {
 // Whether all tiles that a region reads hold subsurface pixels. Of level 1 pass A has written nothing in others, and what is
 // read there is taken for empty; so are the sides of the image.
 bool readsOccupied(Region region) {
-    return region.occupied == (isEdge ? edgeReads : smoothReads);
+    return (region.occupied & ~tileBright) == (isEdge ? edgeReads : smoothReads);
+}
+
+// Whether a smooth region might read pixels of which a sum of two differences is more than a half float holds. All its light
+// then is half as bright until it is summed.
+bool isBright(Region region) {
+    return (region.occupied & tileBright) != 0u;
 }
 
 // Of the tile of a texel of level 1.
@@ -146,19 +152,10 @@ vec3 fetchLight(ivec2 local) {
     return texelFetch(irradianceImage, local + view.areaOffset, 0).rgb;
 }
 
-// `index`: its place in shared memory.
-void storePixel(int index, vec3 light, float depth, float area, uint material) {
-    bool receives = material != 0u && (!isEdge || depth > 0.0);
-    bool gives = receives && (!isEdge || isFinite(light)); // what is not, is in no smooth region
-    light = storableLight(light);
+// `index`: its place in shared memory. `light`: what storableLight leaves as it is.
+void storePixel(int index, vec3 light, float area, bool gives) {
     uvec2 words = uvec2(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, isEdge ? area : 1.0)));
     pixelLights[index] = gives ? words : uvec2(0u);
-    if (isEdge) {
-        pixelDepths[index] = receives ? depth : 0.0;
-    }
-    if (isEdge && separateMaterials) {
-        pixelMaterials[index] = material;
-    }
 }
 
 // A pixel at any place of the region or around it, or the one of the image that is nearest.
@@ -179,16 +176,13 @@ Fetched fetchPixel(Region region, ivec2 place) {
                    isEdge ? distanceAlongRay(local + view.areaOffset, viewZ(local + view.areaOffset)) : 0.0);
 }
 
-// Returns its material, 0 outside the image.
-uint storeFetched(Region region, ivec2 place, Fetched fetched) {
+// Makes its light what enters. Returns its material, 0 outside the image.
+uint decodeFetched(Region region, ivec2 place, inout Fetched fetched) {
     uint material = pixelMaterial(materialsOf(fetched.quadWord, fetched.quad), fetched.local);
     material = fetched.local == region.first + place ? material : 0u;
-    vec3 light = fetched.light;
     if (hasFlag(flagAlbedoBefore)) {
-        light *= albedoBefore(fetched.local + view.areaOffset, material);
+        fetched.light *= albedoBefore(fetched.local + view.areaOffset, material);
     }
-    float area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));
-    storePixel(pixelPlace(place + 1), light, fetched.depth, area, material);
     return material;
 }
 
