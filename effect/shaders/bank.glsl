@@ -76,7 +76,7 @@ RawTexel emptyTexel() {
     return RawTexel(vec3(0.0), 0.0, 0.0, 0.0, 0u, false);
 }
 
-// Light as half floats may have it. No less than none, so that no difference of two is larger than one is.
+// Light as half floats may have it, where it enters. No less than none, so that no difference of two is larger than one is.
 vec3 storableLight(vec3 light) {
     return clamp(light, vec3(0.0), vec3(maxHalf));
 }
@@ -84,7 +84,7 @@ vec3 storableLight(vec3 light) {
 // Light as the mean irradiance of the surface, so that a constant field is stored as what it is.
 uvec4 packRaw(RawTexel texel) {
     uint mass = packHalf2x16(vec2(texel.dropped ? -texel.mass : texel.mass, 0.0));
-    vec3 light = storableLight(texel.light / max(texel.area, bankLeastWeight));
+    vec3 light = texel.light / max(texel.area, bankLeastWeight);
     return uvec4(packHalf2x16(light.rg), packHalf2x16(vec2(light.b, texel.area)),
                  floatBitsToUint(texel.depth), mass | (separateMaterials ? texel.material << 16 : 0u));
 }

@@ -298,14 +298,17 @@ Reduced reduceBlock(Block block, int place, ivec2 texel) {
     Reduced reduced;
     Depths around = depthsOf(block, sides);
     bool plain = isPlain(around, width);
-    if (plain) {
-        reduced = reducePlain(block, sides, width);
-    }
     if (largestLight(block) > floatBitsToUint(mostDimLight)) {
         atomicOr(roughness, tileBright);
-        plain = plain && isFinite(reduced.texel.light);
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+            bool finite = isFinite(block.light[i]);
+            block.light[i] = finite ? storableLight(block.light[i]) : block.light[i];
+            plain = plain && finite;
+        }
     }
-    if (!plain) {
+    if (plain) {
+        reduced = reducePlain(block, sides, width);
+    } else {
         float farthest = max(max(block.depth[0], block.depth[1]), max(block.depth[2], block.depth[3]));
         bool hasHole = around.least == 0.0;
         float limit = (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * texelWidth(0, farthest);

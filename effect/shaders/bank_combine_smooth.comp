@@ -277,8 +277,7 @@ bool hasMaterial(Quad quad, int i, uint material) {
 
 // Half of a texel's light.
 uvec2 dimmed(uvec2 words) {
-    vec2 blueAndMass = unpackHalf2x16(words.y);
-    return uvec2(packHalf2x16(0.5 * unpackHalf2x16(words.x)), packHalf2x16(vec2(0.5 * blueAndMass.x, blueAndMass.y)));
+    return packLight(storedLight(words) * Light(0.5, 0.5, 0.5, 1.0));
 }
 
 // Fetches everything before anything is used, so that the fetches overlap. Returns the thread's quad.
