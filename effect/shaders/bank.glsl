@@ -23,7 +23,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std4
     uvec2 quadMaterials[]; // as level 1 lies: of the four pixels, only where they differ
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) BANK_ACCESS buffer BankAreas {
-    uint quadAreas[]; // as level 1 lies: packAreas of the four pixels
+    uint quadAreas[]; // as level 1 lies: packAreas of the four pixels, only where the block is not plain
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) BANK_ACCESS buffer BankSeconds {
     // Levels 1 … secondLevels, as rawTexels: only where a texel has a second surface (secondBit). Then, from level 2 on
@@ -104,6 +104,9 @@ uvec2 packBlurred(BlurredTexel texel) {
 }
 
 const uint mixedBit = 0x8000u; // of a quad: its pixels' materials are in quadMaterials
+
+// Of a texel of level 1, the sign of its area: its pixels' areas are in quadAreas; else all are the texel's.
+const uint areasBit = signBit;
 
 // The last word of a texel of level 1, whose mass only pass A needs: what the combination wants to know of its 2x2 px. The
 // weights beside the middle of the full-resolution 3x3 in x and y (packBeside) or, where the block is rough, packSpread, 14

@@ -157,7 +157,8 @@ struct Reduced {
     RawTexel texel;
     RawTexel second; // its second surface
     uint weights;    // packBeside or, where the block is rough, packSpread with signBit
-    vec4 areas;
+    bool isPlain;
+    vec4 areas; // of a block that is not plain
 };
 
 Reduced reducePlain(Block block, Sides sides, float width) {
@@ -166,7 +167,7 @@ Reduced reducePlain(Block block, Sides sides, float width) {
     vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
     vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
     RawTexel texel = RawTexel(0.25 * light, dot(areas, vec4(0.25)), 1.0, dot(depth, vec4(0.25)), block.material[0], false);
-    return Reduced(texel, emptyTexel(), packBeside(weightsBeside(steps * (0.5 / width))), areas);
+    return Reduced(texel, emptyTexel(), packBeside(weightsBeside(steps * (0.5 / width))), true, vec4(1.0));
 }
 
 // Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
@@ -260,6 +261,7 @@ vec2 slopeOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
 // `hasStep`: a step to another surface.
 Reduced reduceAny(Block block, Sides sides, bool hasStep) {
     Reduced result;
+    result.isPlain = false;
     result.areas = anyAreas(block, sides);
     RawTexel pixels[4];
     bool dropped = false;

@@ -22,7 +22,7 @@ shared float levelSecondDepths[secondLevels > 0 ? coarseRoom : 1];
 void storeFine(int place, int index, uvec4 words) {
     DepthSpread spread = spreadOf(words.zw);
     // What is spread over more depths weighs farther, and less.
-    float area = unpackHalf2x16(words.y).y * sqrt(sqrt(spread.closeness));
+    float area = abs(unpackHalf2x16(words.y).y) * sqrt(sqrt(spread.closeness));
     fineTaps[place] = vec4(unpackLight(words.xy).rgb * area, area);
     fineSurfaces[place] =
         vec3(abs(uintBitsToFloat(words.z)), pixelScale * spread.closeness, spread.lightSlope / bankMostLit);
@@ -51,7 +51,10 @@ void storeLevelSecond(Coarse coarse, uvec2 surface) {
 // Returns its material.
 uint storeFetched(Region region, ivec2 place, Fetched fetched) {
     uint material = decodeFetched(region, place, fetched);
-    float area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));
+    float area = fetched.quadArea;
+    if (area < 0.0) {
+        area = unpackArea(fetched.areas, (fetched.local.x & 1) + 2 * (fetched.local.y & 1));
+    }
     bool receives = material != 0u && fetched.depth > 0.0;
     int index = pixelPlace(place + 1);
     storePixel(index, storableLight(fetched.light), area, receives && isFinite(fetched.light));

@@ -239,7 +239,7 @@ Sum sumCoarseLevels(Mixture mixture, uint used, ivec2 region, ivec2 local, float
 // A texel of level 1, as reduced, without the surface's area: light times mass, and mass.
 void storeFine(ivec2 texel, uvec2 words) {
     Light lightAndArea = storedLight(words);
-    Real mass = min(lightAndArea.w, Real(1.0));
+    Real mass = min(abs(lightAndArea.w), Real(1.0));
     fineLights[fineIndex(texel)] = packLight(Light(lightAndArea.rgb * mass, mass));
 }
 

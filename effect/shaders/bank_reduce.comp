@@ -45,9 +45,9 @@ uvec4 sharedSecond(int place) {
     return words;
 }
 
-// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 depth's sign, and packQuad. Returns the second
-// surface, which is in the pyramid alone.
-uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uvec2 quad) {
+// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 areasBit, depth's sign, and packQuad. Returns the
+// second surface, which is in the pyramid alone.
+uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uvec3 quad) {
     RawTexel first = surfaces.first;
     lightsAndAreas[place] = vec4(first.light, first.area);
     depthsAndMasses[place] = vec2(first.depth, first.dropped ? -first.mass : first.mass);
@@ -56,7 +56,7 @@ uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uvec2 
     }
     int index = texelIndex(level, texel);
     uvec4 words = packRaw(first);
-    words.zw = level == 1 ? uvec2(words.z | quad.x, quad.y) : words.zw;
+    words.yzw = level == 1 ? uvec3(words.yz | quad.xy, quad.z) : words.yzw;
     uvec4 second = uvec4(0u);
     if (secondLevels > 0 && surfaces.second.mass > 0.0) {
         second = packRaw(surfaces.second);
@@ -119,7 +119,7 @@ void reduceLevel(int level, ivec2 tile, int thread) {
     int spacing = 1 << (level - 2);
     Children children = Children((texel.y * side + texel.x) * 2 * spacing, spacing);
     Surfaces surfaces = secondLevels > 0 ? reduceBoth(children, level) : reduceOne(children, level);
-    uvec4 second = storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, uvec2(0u));
+    uvec4 second = storeSurfaces(surfaces, children.first, level, (tile << shift) + texel, uvec3(0u));
     if (secondLevels > 0) {
         storeSharedSecond(children.first, second);
     }
@@ -199,9 +199,11 @@ uvec4 storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
     if ((word & mixedBit) != 0u) {
         quadMaterials[index] = materials;
     }
-    quadAreas[index] = packAreas(reduced.areas);
+    if (!reduced.isPlain) {
+        quadAreas[index] = packAreas(reduced.areas);
+    }
     return storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel,
-                         uvec2(reduced.weights & signBit, word));
+                         uvec3(reduced.isPlain ? 0u : areasBit, reduced.weights & signBit, word));
 }
 
 // The light of a tile without subsurface pixels leaves where it enters, row by row.

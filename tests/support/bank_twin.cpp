@@ -133,6 +133,7 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
     for (int level = 1; level <= bankLevels; ++level) {
         reduceLevel(level);
     }
+    shareAreas();
     for (int level = 2; level <= bankLevels; ++level) {
         blurLevel(level);
     }
@@ -152,6 +153,46 @@ void BankTwin::weighByArea(int x, int y) {
     pixel.area = pixelArea(x, y);
     for (double& value : pixel.light) {
         value *= pixel.area;
+    }
+}
+
+// Whether a texel of level 1 is a plain block: its pixels and those beside them all scatter, and no step between them
+// is long.
+bool BankTwin::isPlainBlock(int x, int y) const {
+    const auto longestStep = [&](int first, int line, bool inRow) {
+        double longest = 0;
+        const RawTexel* before = nullptr;
+        for (int i = first - 1; i <= first + 2; ++i) {
+            const RawTexel* pixel = inRow ? raw_[0].at(i, line) : raw_[0].at(line, i);
+            if (pixel == nullptr || pixel->mass <= 0) {
+                return 1e300;
+            }
+            longest = before != nullptr ? std::max(longest, std::abs(pixel->depth - before->depth)) : 0;
+            before = pixel;
+        }
+        return longest;
+    };
+    double longest = 0;
+    for (int i = 0; i < 2; ++i) {
+        longest = std::max({longest, longestStep(2 * x, 2 * y + i, true), longestStep(2 * y, 2 * x + i, false)});
+    }
+    const RawTexel* first = raw_[0].at(2 * x, 2 * y);
+    return first != nullptr && longest <= constants::bankContinuedStep * texelWidth(0, first->depth);
+}
+
+// The pixels of plain blocks have their mean area.
+void BankTwin::shareAreas() {
+    for (int y = 0; y < scene_.height; ++y) {
+        for (int x = 0; x < scene_.width; ++x) {
+            if (isPlainBlock(x / 2, y / 2)) {
+                RawTexel& pixel = raw_[0].texels[scene_.index(x, y)];
+                const double area = raw_[1].at(x / 2, y / 2)->area;
+                for (double& value : pixel.light) {
+                    value *= area / pixel.area;
+                }
+                pixel.area = area;
+            }
+        }
     }
 }
 

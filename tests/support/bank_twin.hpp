@@ -107,6 +107,8 @@ private:
     double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
+    bool isPlainBlock(int x, int y) const;
+    void shareAreas();
     double quadSlope(int x, int y, int dx, int dy) const;
 
     const ScatterScene& scene_;
