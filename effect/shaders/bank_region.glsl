@@ -173,8 +173,8 @@ struct Fetched {
 Fetched fetchPixel(Region region, ivec2 place) {
     ivec2 local = clamp(region.first + place, ivec2(0), view.areaExtent - 1);
     int quad = fineTexelIndex(region, place >> 1);
-    return Fetched(local, quad, rawTexels[quad].w, isEdge ? unpackHalf2x16(rawTexels[quad].y).y : 1.0, isEdge ? quadAreas[quad] : 0u,
-                   fetchLight(local),
+    return Fetched(local, quad, rawTexels[quad].w, isEdge ? unpackHalf2x16(rawTexels[quad].y).y : 1.0,
+                   isEdge ? quadAreas[quad] : 0u, fetchLight(local),
                    isEdge ? distanceAlongRay(local + view.areaOffset, viewZ(local + view.areaOffset)) : 0.0);
 }
 
