@@ -182,16 +182,23 @@ bool BankTwin::isPlainBlock(int x, int y) const {
 
 // The pixels of plain blocks have their mean area.
 void BankTwin::shareAreas() {
-    for (int y = 0; y < scene_.height; ++y) {
-        for (int x = 0; x < scene_.width; ++x) {
-            if (isPlainBlock(x / 2, y / 2)) {
-                RawTexel& pixel = raw_[0].texels[scene_.index(x, y)];
-                const double area = raw_[1].at(x / 2, y / 2)->area;
-                for (double& value : pixel.light) {
-                    value *= area / pixel.area;
-                }
-                pixel.area = area;
+    for (int block = 0; block < raw_[1].width * raw_[1].height; ++block) {
+        const int x = block % raw_[1].width;
+        const int y = block / raw_[1].width;
+        if (!isPlainBlock(x, y)) {
+            continue;
+        }
+        std::array<RawTexel*, 4> pixels;
+        double mean = 0;
+        for (int i = 0; i < 4; ++i) {
+            pixels[i] = &raw_[0].texels[scene_.index(2 * x + i % 2, 2 * y + i / 2)];
+            mean += pixels[i]->area / 4;
+        }
+        for (RawTexel* pixel : pixels) {
+            for (double& value : pixel->light) {
+                value *= mean / pixel->area;
             }
+            pixel->area = mean;
         }
     }
 }
@@ -241,7 +248,8 @@ void BankTwin::reduceLevel(int level) {
         }
         RawTexel& texel = to.texels[i];
         texel = block.sum([](const RawTexel&) { return true; });
-        if (block.farthest - block.nearest > separationAt(level, block.nearest)) {
+        const bool isPlain = level == 1 && isPlainBlock(x, y);
+        if (!isPlain && block.farthest - block.nearest > separationAt(level, block.nearest)) {
             texel = block.sum([&](const RawTexel& t) { return block.isNear(t); });
             seconds.texels[i] = block.sum([&](const RawTexel& t) { return !block.isNear(t); });
         }
