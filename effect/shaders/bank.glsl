@@ -23,7 +23,7 @@ layout(set = 0, binding = bindingIntermediates + intermediateBankMaterials, std4
     uvec2 quadMaterials[]; // as level 1 lies: of the four pixels, only where they differ
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankAreas, std430) BANK_ACCESS buffer BankAreas {
-    uint quadAreas[]; // as level 1 lies: packAreas of the four pixels, only where the block is not plain
+    uint quadAreas[]; // as level 1 lies: packAreas of the four pixels, only where they do not share their area
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankSeconds, std430) BANK_ACCESS buffer BankSeconds {
     // Levels 1 … secondLevels, as rawTexels: only where a texel has a second surface (secondBit). Then, from level 2 on

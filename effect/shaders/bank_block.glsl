@@ -157,8 +157,8 @@ struct Reduced {
     RawTexel texel;
     RawTexel second; // its second surface
     uint weights;    // packBeside or, where the block is rough, packSpread with signBit
-    bool isPlain;
-    vec4 areas; // of a block that is not plain
+    bool shareArea;  // of all pixels the texel's area, not `areas`
+    vec4 areas;
 };
 
 Reduced reducePlain(Block block, Sides sides, float width) {
@@ -166,8 +166,10 @@ Reduced reducePlain(Block block, Sides sides, float width) {
     vec3 light = areas.x * block.light[0] + areas.y * block.light[1] + areas.z * block.light[2] + areas.w * block.light[3];
     vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
     vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
-    RawTexel texel = RawTexel(0.25 * light, dot(areas, vec4(0.25)), 1.0, dot(depth, vec4(0.25)), block.material[0], false);
-    return Reduced(texel, emptyTexel(), packBeside(weightsBeside(steps * (0.5 / width))), true, vec4(1.0));
+    float area = dot(areas, vec4(0.25));
+    bool shareArea = dot(areas, areas) <= (4.0 + 4.0 * bankSharedAreaVariance) * (area * area);
+    RawTexel texel = RawTexel(0.25 * light, area, 1.0, dot(depth, vec4(0.25)), block.material[0], false);
+    return Reduced(texel, emptyTexel(), packBeside(weightsBeside(steps * (0.5 / width))), shareArea, areas);
 }
 
 // Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
@@ -261,7 +263,7 @@ vec2 slopeOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
 // `hasStep`: a step to another surface.
 Reduced reduceAny(Block block, Sides sides, bool hasStep) {
     Reduced result;
-    result.isPlain = false;
+    result.shareArea = false;
     result.areas = anyAreas(block, sides);
     RawTexel pixels[4];
     bool dropped = false;

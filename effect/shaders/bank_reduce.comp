@@ -199,11 +199,11 @@ uvec4 storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
     if ((word & mixedBit) != 0u) {
         quadMaterials[index] = materials;
     }
-    if (!reduced.isPlain) {
+    if (!reduced.shareArea) {
         quadAreas[index] = packAreas(reduced.areas);
     }
     return storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel,
-                         uvec3(reduced.isPlain ? 0u : areasBit, reduced.weights & signBit, word));
+                         uvec3(reduced.shareArea ? 0u : areasBit, reduced.weights & signBit, word));
 }
 
 // The light of a tile without subsurface pixels leaves where it enters, row by row.

@@ -180,7 +180,7 @@ bool BankTwin::isPlainBlock(int x, int y) const {
     return first != nullptr && longest <= constants::bankContinuedStep * texelWidth(0, first->depth);
 }
 
-// The pixels of plain blocks have their mean area.
+// The pixels of plain blocks have their mean area where it hardly varies.
 void BankTwin::shareAreas() {
     for (int block = 0; block < raw_[1].width * raw_[1].height; ++block) {
         const int x = block % raw_[1].width;
@@ -190,11 +190,16 @@ void BankTwin::shareAreas() {
         }
         std::array<RawTexel*, 4> pixels;
         double mean = 0;
+        double square = 0;
         for (int i = 0; i < 4; ++i) {
             pixels[i] = &raw_[0].texels[scene_.index(2 * x + i % 2, 2 * y + i / 2)];
             mean += pixels[i]->area / 4;
+            square += pixels[i]->area * pixels[i]->area / 4;
         }
         for (RawTexel* pixel : pixels) {
+            if (square > (1 + constants::bankSharedAreaVariance) * mean * mean) {
+                continue;
+            }
             for (double& value : pixel->light) {
                 value *= mean / pixel->area;
             }
