@@ -8,6 +8,7 @@
 #include "app/bench/results.hpp"
 #include "app/bench/run.hpp"
 #include "app/bench/suites.hpp"
+#include "app/interruption.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -74,7 +75,10 @@ void writeReport(const bench::Results& results, const Path& folder) {
 
 void runSuite(const Suite& suite, const SuiteOptions& options) {
     requireRange(options.suite.seconds, 1, maxSeconds, "--seconds");
-    const auto say = [](const std::string& line) { std::cerr << line << std::endl; };
+    const auto say = [](const std::string& line) {
+        throwIfInterrupted();
+        std::cerr << line << std::endl;
+    };
     ResultsFolder folder(options.folder);
     renderer::Device device(options.device);
     say("making the scenes");
@@ -105,7 +109,7 @@ void addSuite(CLI::App& bench, const Suite& suite) {
         ->type_name("FOLDER");
     command->add_option("--device", options->device.name, "The number or a part of the name of a Vulkan device")
         ->type_name("NAME");
-    command->callback([&suite, options] { runSuite(suite, *options); });
+    command->callback([&suite, options] { runInterruptibly([&] { runSuite(suite, *options); }); });
 }
 
 void addDiff(CLI::App& bench) {

@@ -5,9 +5,12 @@
 #include "schema.hpp"
 #include "tests/support/bench_sample.hpp"
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <set>
+#include <thread>
 
 namespace {
 
@@ -58,6 +61,19 @@ TEST_F(BenchTest, NeedsASuite) {
     expectComplaint(run({"bench"}), 2, {"subcommand"});
     expectComplaint(run({"bench", "guess"}), 2, {"subcommand", "nacre bench --help"});
     expectComplaint(run({"bench", "diff", "old.json"}), 2, {"NEW"});
+}
+
+// Ctrl-C while it measures: it ends by that signal, and leaves no folder.
+TEST_F(BenchTest, AnInterruptedRunLeavesNothing) {
+    const RunningNacre bench({"bench", "thesis", "--quick", "-o", "results"}, folder());
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (bench.error().find("warming up") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_EQ(files(), std::vector<std::string>{"results"}) << bench.error();
+    bench.send(SIGINT);
+    EXPECT_EQ(bench.wait().exitCode, 128 + SIGINT);
+    EXPECT_EQ(files(), std::vector<std::string>{});
 }
 
 TEST_F(BenchTest, DiffOfEqualRunsSucceeds) {

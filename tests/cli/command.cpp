@@ -1,6 +1,7 @@
 #include "command.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -57,17 +58,30 @@ f 3 4 8 7
 f 4 1 5 8
 )";
 
-Outcome runNacre(const std::vector<std::string>& arguments, const fs::path& folder, const Environment& environment) {
-    const tests::TemporaryFolder temporary;
-    const fs::path& logs = temporary.path;
-    const pid_t process = fork();
-    if (process == 0) {
-        becomeNacre(arguments, folder, logs, environment);
+RunningNacre::RunningNacre(const std::vector<std::string>& arguments, const fs::path& folder,
+                           const Environment& environment)
+    : process_(fork()) {
+    if (process_ == 0) {
+        becomeNacre(arguments, folder, logs_.path, environment);
     }
+}
+
+void RunningNacre::send(int signal) const {
+    kill(process_, signal);
+}
+
+Outcome RunningNacre::wait() const {
     int status = 0;
-    waitpid(process, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(logs / "output"),
-            readText(logs / "error")};
+    waitpid(process_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(logs_.path / "output"), error()};
+}
+
+std::string RunningNacre::error() const {
+    return readText(logs_.path / "error");
+}
+
+Outcome runNacre(const std::vector<std::string>& arguments, const fs::path& folder, const Environment& environment) {
+    return RunningNacre(arguments, folder, environment).wait();
 }
 
 std::vector<std::string> complaints(const Outcome& outcome) {

@@ -4,6 +4,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include <filesystem>
 #include <string>
@@ -20,7 +21,22 @@ struct Outcome {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-/// Runs `nacre` with these arguments in `folder`, with `environment` on top of ours.
+/// `nacre` with these arguments in `folder`, with `environment` on top of ours. To be waited for.
+class RunningNacre {
+public:
+    RunningNacre(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                 const Environment& environment = {});
+    void send(int signal) const;
+    /// What it has said on standard error until now.
+    std::string error() const;
+    Outcome wait() const;
+
+private:
+    tests::TemporaryFolder logs_;
+    pid_t process_;
+};
+
+/// Runs it to its end.
 Outcome runNacre(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                  const Environment& environment = {});
 
