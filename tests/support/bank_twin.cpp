@@ -196,10 +196,10 @@ void BankTwin::shareAreas() {
             mean += pixels[i]->area / 4;
             square += pixels[i]->area * pixels[i]->area / 4;
         }
+        if (square > (1 + constants::bankSharedAreaVariance) * mean * mean) {
+            continue;
+        }
         for (RawTexel* pixel : pixels) {
-            if (square > (1 + constants::bankSharedAreaVariance) * mean * mean) {
-                continue;
-            }
             for (double& value : pixel->light) {
                 value *= mean / pixel->area;
             }
