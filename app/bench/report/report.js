@@ -35,7 +35,10 @@
             context.moveTo(x - 4, high); context.lineTo(x + 4, high);
             context.stroke();
           }
-          if (point.label) context.fillText(point.label, x + 7, y - 5);
+          if (point.label) {
+            const rightmost = chart.width - context.measureText(point.label).width;
+            context.fillText(point.label, Math.min(x + 7, rightmost), y - 5);
+          }
         });
         context.restore();
       });
