@@ -77,13 +77,18 @@ std::string describeLayers(const Material& material) {
     return text;
 }
 
+std::string describeTransmission(const Material& material) {
+    return material.diffuseTransmission > 0 ? ", diffuse transmission " + number(material.diffuseTransmission) : "";
+}
+
 std::string describe(const Material& material) {
     std::ostringstream text;
     text << material.name << ": " << material.description << '\n'
-         << "  strength " << material.strength << ", translucency " << material.translucency << ", scale "
-         << material.scale << ", albedo use " << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost")
-         << ", second surfaces " << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness "
-         << material.roughness << ", specular " << material.specular << '\n'
+         << "  strength " << material.strength << ", translucency " << material.translucency
+         << describeTransmission(material) << ", scale " << material.scale << ", albedo use "
+         << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost") << ", second surfaces "
+         << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness " << material.roughness << ", specular "
+         << material.specular << '\n'
          << "  " << std::setw(34) << "" << std::setw(11) << "red" << std::setw(11) << "green" << std::setw(11) << "blue"
          << '\n';
     return text.str() + row("albedo", material.albedo) + describeLayers(material) + describeProfile(material);

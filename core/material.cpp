@@ -73,6 +73,7 @@ std::string findFault(const Material& material) {
         double value;
     } shares[] = {{"strength", material.strength},
                   {"translucency", material.translucency},
+                  {"diffuseTransmission", material.diffuseTransmission},
                   {"roughness", material.roughness},
                   {"specular", material.specular}};
     for (const auto& share : shares) {
@@ -82,6 +83,12 @@ std::string findFault(const Material& material) {
     }
     if (auto fault = findFault("albedo", material.albedo, unitRange); !fault.empty()) {
         return fault;
+    }
+    if (material.diffuseTransmissionColor) {
+        if (auto fault = findFault("diffuseTransmissionColor", *material.diffuseTransmissionColor, unitRange);
+            !fault.empty()) {
+            return fault;
+        }
     }
     return findProfileFault(material);
 }

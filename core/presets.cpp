@@ -13,7 +13,6 @@ Material skin() {
     material.description = "Human skin: the six Gaussians of d'Eon and Luebke 2007 (GPU Gems 3, chapter 14)";
     material.layers = {{{0.233, 0.455, 0.649}, 0.0064}, {{0.100, 0.336, 0.344}, 0.0484}, {{0.118, 0.198, 0.000}, 0.187},
                        {{0.113, 0.007, 0.007}, 0.567},  {{0.358, 0.004, 0.000}, 1.99},   {{0.078, 0.000, 0.000}, 7.41}};
-    material.translucency = 0.3;
     material.albedo = {0.77, 0.55, 0.45};
     material.roughness = 0.45;
     material.specular = 0.35;
@@ -26,7 +25,6 @@ Material skinBurley() {
     material.description = "Human skin: Burley's normalised diffusion with the widths of Jensen's Skin1";
     // Jensen's Skin1 through the searchlight fit of Christensen and Burley 2015: d = 1/(σt′·s(Rd)).
     material.meanFreePath = {0.746, 0.318, 0.175};
-    material.translucency = 0.3;
     material.albedo = {0.77, 0.55, 0.45};
     material.roughness = 0.45;
     material.specular = 0.35;
@@ -42,7 +40,6 @@ Material marble() {
                        {{0.243663, 0.243532, 0.189042}, 0.114451},
                        {{0.310530, 0.315817, 0.374245}, 0.455584},
                        {{0.391349, 0.316102, 0.218988}, 3.48332}};
-    material.translucency = 0.3;
     material.albedo = {0.83, 0.79, 0.75};
     material.roughness = 0.25;
     return material;
@@ -54,7 +51,6 @@ Material wax() {
     material.description = "Candle wax, chosen by eye";
     material.layers = {
         {{0.20, 0.30, 0.45}, 0.05}, {{0.25, 0.30, 0.35}, 0.5}, {{0.30, 0.28, 0.17}, 4}, {{0.25, 0.12, 0.03}, 20}};
-    material.translucency = 0.45;
     material.albedo = {0.92, 0.82, 0.62};
     material.roughness = 0.4;
     material.specular = 0.4;
@@ -67,7 +63,6 @@ Material jade() {
     material.description = "Green jade, chosen by eye";
     material.layers = {
         {{0.45, 0.15, 0.30}, 0.1}, {{0.35, 0.25, 0.35}, 1}, {{0.17, 0.35, 0.27}, 6}, {{0.03, 0.25, 0.08}, 25}};
-    material.translucency = 0.4;
     material.albedo = {0.35, 0.72, 0.48};
     material.roughness = 0.2;
     material.specular = 0.7;
@@ -79,7 +74,6 @@ Material leaf() {
     material.name = "leaf";
     material.description = "A green leaf a third of a millimetre thick, chosen by eye";
     material.layers = {{{0.50, 0.35, 0.60}, 0.004}, {{0.35, 0.40, 0.32}, 0.04}, {{0.15, 0.25, 0.08}, 0.25}};
-    material.translucency = 0.5;
     material.albedo = {0.22, 0.42, 0.08};
     material.roughness = 0.45;
     return material;
@@ -93,7 +87,6 @@ Material motherOfPearl() {
                        {{0.12, 0.08, 0.13}, 0.06},  {{0.08, 0.13, 0.10}, 0.18},  {{0.14, 0.10, 0.15}, 0.5},
                        {{0.11, 0.14, 0.09}, 1.4},   {{0.15, 0.12, 0.13}, 3.6},   {{0.10, 0.11, 0.09}, 9},
                        {{0.07, 0.06, 0.04}, 20}};
-    material.translucency = 0.3;
     material.albedo = {0.88, 0.84, 0.82};
     material.roughness = 0.18;
     material.specular = 0.7;

@@ -10,8 +10,7 @@ constexpr std::size_t layerCount = 8;
 
 struct MeasuredPreset {
     const char* name;
-    double translucency; // by eye, as is the roughness
-    double roughness;
+    double roughness; // by eye
     std::array<Layer, layerCount> layers;
 };
 
@@ -19,7 +18,6 @@ struct MeasuredPreset {
 // Spectralon 0.002; tests/unit/media_test.cpp fits them anew.
 constexpr MeasuredPreset measured[] = {
     {"apple",
-     0.3,
      0.35,
      {{{{0.01982, 0.02539, 0.01378}, 0.02805},
        {{0.10349, 0.1109, 0.12258}, 0.07391},
@@ -30,7 +28,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.10945, 0.1021, 0.00913}, 24.63},
        {{0.02927, 0.0229, 0}, 100.1}}}},
     {"chicken1",
-     0.3,
      0.35,
      {{{{0, 0.00024, 0.02351}, 0.3228},
        {{0, 0, 0.22825}, 0.7801},
@@ -41,7 +38,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.25525, 0.0082, 0}, 160.4},
        {{0.08208, 0, 0.00029}, 521.9}}}},
     {"chicken2",
-     0.3,
      0.35,
      {{{{0, 0.00018, 0.00158}, 0.1774},
        {{0.00028, 0.00264, 0.12851}, 0.6415},
@@ -52,7 +48,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.23331, 0.00789, 0}, 116.8},
        {{0.07129, 0, 0}, 361.2}}}},
     {"cream",
-     0.3,
      0.2,
      {{{{0.09894, 0.03658, 0}, 0.005693},
        {{0.14608, 0.15618, 0.06382}, 0.02008},
@@ -64,7 +59,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.02015, 0.00298, 0}, 151}}}},
     {"ketchup",
      0.2,
-     0.2,
      {{{{0, 0, 0.00879}, 0.02567},
        {{0, 0.04534, 0.31654}, 0.09555},
        {{0, 0.41507, 0.51205}, 0.2483},
@@ -74,7 +68,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.42564, 0, 0}, 22.27},
        {{0.12403, 0, 0}, 84.2}}}},
     {"marble-measured",
-     0.3,
      0.25,
      {{{{0.00765, 0.02472, 0.04973}, 0.02137},
        {{0.09364, 0.13766, 0.16703}, 0.0649},
@@ -85,7 +78,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.12956, 0.08439, 0.04474}, 35.1},
        {{0.03545, 0.00848, 0.00081}, 146.3}}}},
     {"potato",
-     0.3,
      0.6,
      {{{{0.01232, 0.01925, 0.02994}, 0.2748},
        {{0.07115, 0.0968, 0.19052}, 0.6206},
@@ -96,7 +88,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.14273, 0.0654, 0.00019}, 131.4},
        {{0.03816, 0.00186, 0}, 491.2}}}},
     {"skim-milk",
-     0.35,
      0.05,
      {{{{0.00039, 0.00717, 0.09548}, 0.06764},
        {{0.01048, 0.11797, 0.20817}, 0.228},
@@ -107,7 +98,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.17051, 0.06865, 0}, 135.9},
        {{0.04787, 0.00477, 0.00018}, 618.8}}}},
     {"skin1",
-     0.3,
      0.45,
      {{{{0, 0.00014, 0.00125}, 0.01989},
        {{0.00026, 0.00658, 0.11924}, 0.07812},
@@ -118,7 +108,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.22583, 0.01402, 0}, 15.41},
        {{0.06715, 0, 0}, 48.24}}}},
     {"skin2",
-     0.3,
      0.45,
      {{{{0, 0.00081, 0.00677}, 0.02205},
        {{0.00236, 0.06282, 0.13605}, 0.06538},
@@ -129,7 +118,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.22046, 0.01912, 0}, 16.98},
        {{0.06496, 0, 0}, 61.46}}}},
     {"spectralon",
-     0.2,
      1,
      {{{{0.02199, 0.13631, 0.06239}, 0.0009258},
        {{0.1828, 0.2058, 0.20238}, 0.004671},
@@ -140,7 +128,6 @@ constexpr MeasuredPreset measured[] = {
        {{0.0356, 0.02016, 0.02761}, 40.1},
        {{0.01215, 0.00691, 0.00947}, 599.3}}}},
     {"whole-milk",
-     0.35,
      0.05,
      {{{{0.00556, 0.02881, 0.06947}, 0.01569},
        {{0.0995, 0.14274, 0.17828}, 0.04966},
@@ -170,7 +157,6 @@ void appendMeasuredPresets(std::vector<Material>& presets) {
                                ": Gaussians fitted to the dipole profile of the coefficients that " +
                                "Jensen et al. 2001 measured; albedo as they publish it";
         material.layers.assign(preset.layers.begin(), preset.layers.end());
-        material.translucency = preset.translucency;
         material.albedo = media[i].diffuseReflectance;
         material.roughness = preset.roughness;
         material.specular = specularOf(media[i].medium.refractiveIndex);

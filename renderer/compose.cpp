@@ -33,15 +33,16 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent) {
                          .usage = Kind::eStorage | Kind::eTransferSrc});
     const auto pixels = [&](Image& image) { return sampled(image, inputs.nearest); };
     Environment& environment = inputs.environment;
-    radiancePass_ = ComputePass(gpu, "compose", compose_comp_spv,
-                                {uniform(gbuffer.view()), uniform(environment.constants()),
-                                 storage(inputs.subsurface.translucencies()),
-                                 pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
-                                 pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
-                                 pixels(inputs.lighting.irradiance()), pixels(inputs.lighting.specular()),
-                                 pixels(inputs.subsurface.scattered()), pixels(inputs.subsurface.transmitted()),
-                                 sampled(environment.radiance(), environment.sampler()), written(radiance_)},
-                                sizeof(RadiancePush));
+    radiancePass_ =
+        ComputePass(gpu, "compose", compose_comp_spv,
+                    {uniform(gbuffer.view()), uniform(environment.constants()),
+                     storage(inputs.subsurface.transmissions()), pixels(gbuffer.image(GBuffer::ShadingNormal)),
+                     pixels(gbuffer.image(GBuffer::Albedo)), pixels(gbuffer.image(GBuffer::Emission)),
+                     pixels(gbuffer.image(GBuffer::MaterialId)), pixels(inputs.lighting.irradiance()),
+                     pixels(inputs.lighting.specular()), pixels(inputs.subsurface.scattered()),
+                     pixels(inputs.subsurface.transmitted()), sampled(environment.radiance(), environment.sampler()),
+                     pixels(inputs.occlusion.visibility()), written(radiance_)},
+                    sizeof(RadiancePush));
     colorPass_ =
         ComputePass(gpu, "tone map", tone_map_comp_spv, {pixels(radiance_), written(color_)}, sizeof(ColorPush));
 }

@@ -12,6 +12,7 @@ class Compose {
 public:
     struct Inputs {
         GBuffer& gbuffer;
+        AmbientOcclusion& occlusion;
         Lighting& lighting;
         Subsurface& subsurface;
         Environment& environment;

@@ -168,7 +168,7 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
                       })),
       compose(part("compose and tone map",
                    [&] {
-                       return Compose(gpu, {gbuffer, lighting, subsurface, environment, nearest},
+                       return Compose(gpu, {gbuffer, occlusion, lighting, subsurface, environment, nearest},
                                       {settings.width, settings.height});
                    })),
       timer(gpu) {

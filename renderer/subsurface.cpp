@@ -95,9 +95,19 @@ NacreMaterial convert(const Material& material, std::vector<NacreLayer>& layers)
     }
     result.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
     result.strength = static_cast<float>(material.strength);
-    result.translucency = static_cast<float>(material.translucency);
+    const double through = material.diffuseTransmission > 0 ? material.diffuseTransmission : 1;
+    result.translucency = static_cast<float>(material.translucency * through);
     result.scale = static_cast<float>(material.scale);
     result.secondSurfaces = asksForSecondSurfaces(material);
+    return result;
+}
+
+shared::TransmissionConstants makeTransmission(const Material& material) {
+    shared::TransmissionConstants result{};
+    if (const auto& color = material.diffuseTransmissionColor) {
+        result.color = glm::vec4((*color)[0], (*color)[1], (*color)[2], 1);
+    }
+    result.share.x = static_cast<float>(material.diffuseTransmission);
     return result;
 }
 
@@ -139,8 +149,8 @@ Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& 
     if (info.thickness) {
         thickness_ = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, info.extent, NACRE_IMAGE_THICKNESS_OUT);
     }
-    translucencies_ = Buffer(gpu, "translucencies", (materials.size() + 1) * sizeof(float),
-                             vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
+    transmissions_ = Buffer(gpu, "transmissions", (materials.size() + 1) * sizeof(shared::TransmissionConstants),
+                            vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
     createContext(gpu, techniquesFor(info.technique, materials));
     setMaterials(materials);
 }
@@ -179,17 +189,17 @@ void Subsurface::setMaterials(const std::vector<Material>& materials) {
     checked(materials);
     std::vector<std::vector<NacreLayer>> layers(materials.size());
     std::vector<NacreMaterial> converted;
-    std::vector<float> translucencies{0};
+    std::vector<shared::TransmissionConstants> transmissions(1);
     for (std::size_t i = 0; i < materials.size(); ++i) {
         converted.push_back(convert(materials[i], layers[i]));
-        translucencies.push_back(converted.back().translucency);
+        transmissions.push_back(makeTransmission(materials[i]));
     }
     if (!converted.empty()) {
         check(nacreSetMaterials(context_.get(), 1, static_cast<std::uint32_t>(converted.size()), converted.data()));
     }
     materials_ = materials;
     bakedRadius_.reset();
-    std::memcpy(translucencies_.mapped(), translucencies.data(), translucencies.size() * sizeof(float));
+    std::memcpy(transmissions_.mapped(), transmissions.data(), transmissions.size() * sizeof(transmissions[0]));
 }
 
 NacreView Subsurface::makeView(const View& view) const {

@@ -38,8 +38,8 @@ public:
     Image& transmitted() { return transmitted_; }
     /// The thickness transmission used, mm, 0 where there was none (R16F); only where Info::thickness asks for it.
     Image& thickness() { return thickness_; }
-    /// Material translucency by id, for compose.
-    const Buffer& translucencies() const { return translucencies_; }
+    /// TransmissionConstants by material id, for compose.
+    const Buffer& transmissions() const { return transmissions_; }
 
     struct Frame {
         std::uint32_t index = 0;
@@ -81,7 +81,7 @@ private:
     Image scattered_;
     Image transmitted_;
     Image thickness_;
-    Buffer translucencies_;
+    Buffer transmissions_;
     std::vector<Material> materials_;
     bool scatteredHasAlbedo_ = false;
     std::uint32_t techniques_ = 0;             ///< NacreContextInfo::techniques

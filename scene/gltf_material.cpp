@@ -101,13 +101,10 @@ void GltfMaterials::readTextures(const tinygltf::Material& source, const std::st
     const auto& pbr = source.pbrMetallicRoughness;
     GltfTextureUse baseColor = useOf(file_, pbr.baseColorTexture, field + ".pbrMetallicRoughness.baseColorTexture");
     readSpecularGlossiness(source, field, surface, baseColor);
-    // Without a base colour texture, what the medium scatters or lets through is the colour that is seen.
-    for (const auto& [name, key] :
-         {std::pair("KHR_materials_scatter", "multiscatterColorTexture"),
-          std::pair("KHR_materials_volume_scatter", "multiscatterColorTexture"),
-          std::pair("KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture")}) {
+    // Without a base colour texture, what the medium scatters is the colour that is seen.
+    for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
         if (baseColor.texture < 0) {
-            baseColor = extension(name).texture(key);
+            baseColor = extension(name).texture("multiscatterColorTexture");
         }
     }
     const GltfTextureUse normal = useOf(file_, source.normalTexture, field + ".normalTexture");
@@ -162,6 +159,12 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const std::
             medium.multiscatterColor *= linearMean(scene_.textures[image]);
         }
     }
+    const GltfObject diffuse(file_, source.extensions, "KHR_materials_diffuse_transmission", field);
+    const GltfTextureUse colorTexture = diffuse.texture("diffuseTransmissionColorTexture");
+    if (const std::uint32_t image = texture(colorTexture, true); image != none) { // a material has one colour
+        *medium.transmissionColor *= linearMean(scene_.textures[image]);
+        scene_.notes.push_back(file_.path.string() + ": " + colorTexture.field + " is averaged to one colour");
+    }
     if (medium.thickness > 0) {
         surface.thickness = static_cast<float>(medium.thickness * 1000);
     }
@@ -169,8 +172,7 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const std::
     if (!material) {
         return;
     }
-    const GltfObject diffuse(file_, source.extensions, "KHR_materials_diffuse_transmission", field);
-    const glm::vec3 through = diffuse.color("diffuseTransmissionColorFactor", glm::vec3(1));
+    const glm::vec3 through = medium.transmissionColor.value_or(glm::vec3(1));
     const bool dense = medium.scatters && medium.multiscatterColor != glm::vec3(0);
     const float share = static_cast<float>(dense ? material->strength : 0);
     if (!textured && dense) {

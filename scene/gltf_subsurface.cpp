@@ -44,6 +44,13 @@ Rgb perChannel(const GltfMedium& medium, double (*length)(const GltfMedium&, int
     return {length(medium, 0), length(medium, 1), length(medium, 2)};
 }
 
+std::optional<Rgb> transmissionColor(const GltfMedium& medium) {
+    if (!medium.transmissionColor) {
+        return std::nullopt;
+    }
+    return Rgb{medium.transmissionColor->x, medium.transmissionColor->y, medium.transmissionColor->z};
+}
+
 } // namespace
 
 GltfMedium readMedium(const GltfFile& file, const tinygltf::ExtensionMap& extensions, const std::string& owner) {
@@ -60,6 +67,9 @@ GltfMedium readMedium(const GltfFile& file, const tinygltf::ExtensionMap& extens
     const GltfObject diffuse = extension("KHR_materials_diffuse_transmission");
     medium.transmits = transmission.exists() || diffuse.exists();
     medium.thinTransmission = diffuse.number("diffuseTransmissionFactor", 0, 0, 1);
+    if (diffuse.exists()) {
+        medium.transmissionColor = diffuse.color("diffuseTransmissionColorFactor", glm::vec3(1));
+    }
     medium.transmission = std::max(medium.thinTransmission, transmission.number("transmissionFactor", 0, 0, 1));
 
     const GltfObject volumeScatter = extension("KHR_materials_volume_scatter");
@@ -99,11 +109,13 @@ std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string
     if (volumetric && medium.thinTransmission > 0) {
         material.meanFreePath = perChannel(medium, absorbingMeanFreePath);
         material.translucency = medium.thinTransmission;
+        material.diffuseTransmissionColor = transmissionColor(medium);
         return material;
     }
     if (!volumetric && medium.thinTransmission > 0 && (scatters || !medium.scatters)) {
         material.meanFreePath = Rgb{thinWallMeanFreePath, thinWallMeanFreePath, thinWallMeanFreePath};
-        material.translucency = medium.thinTransmission;
+        material.diffuseTransmission = medium.thinTransmission;
+        material.diffuseTransmissionColor = transmissionColor(medium);
         return material;
     }
     return std::nullopt;

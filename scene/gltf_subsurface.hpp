@@ -13,6 +13,7 @@ struct GltfMedium {
     bool transmits = false;      ///< one of the transmission extensions is there
     double transmission = 0;     ///< [0, 1] share of the light that enters
     double thinTransmission = 0; ///< [0, 1] share of the diffuse light that leaves on the far side of a thin wall
+    std::optional<glm::vec3> transmissionColor; ///< of KHR_materials_diffuse_transmission, where it is there
     bool scatters = false;
     glm::vec3 multiscatterColor{0}; ///< albedo with all orders of scattering
     double anisotropy = 0;          ///< g of Henyey and Greenstein
@@ -30,7 +31,10 @@ inline constexpr double thinWallThickness = 0.01;
 ///    s = 1.9 − A + 3.5(A − 0.8)² (Christensen and Burley 2015, diffuse transmission);
 ///  - volumes without scattering behind a diffuse transmission: d such that a slab of attenuationDistance transmits
 ///    attenuationColor;
-///  - thin walls: translucency = the transmitted share, with a spread of 0.3 mm, a leaf's thickness, chosen by eye.
+///  - thin walls: diffuseTransmission = the transmitted share, with a spread of 0.3 mm, a leaf's thickness, chosen by
+///  eye.
+/// What KHR_materials_diffuse_transmission lets through has its own colour, diffuseTransmissionColor; in dense media it
+/// is part of the albedo.
 std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string& name);
 
 } // namespace nacre::scene

@@ -151,6 +151,8 @@ template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& m
     visit("albedoUse", material.albedoUse);
     visit("strength", material.strength);
     visit("translucency", material.translucency);
+    visit("diffuseTransmission", material.diffuseTransmission);
+    visit("diffuseTransmissionColor", material.diffuseTransmissionColor);
     visit("scale", material.scale);
     visit("secondSurfaces", material.secondSurfaces);
     visit("albedo", material.albedo);

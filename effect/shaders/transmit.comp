@@ -1,5 +1,6 @@
 // Light that comes through: per light, the thickness between the pixel and where the light enters (shadow map), the
-// slab transmittance of the material's profile at that thickness, times the light's irradiance on the far side.
+// slab transmittance of the material's profile at that thickness, times the light's irradiance on the far side. Light
+// that enters where the camera sees it is scatter's, and is left out here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -43,9 +44,14 @@ const uint noShadowMap = 0xffffffffu;
 const float leastCosine = 0.2;
 // [1] Longest step along the receiver's plane, over texel size, that taps follow.
 const float steepestPlane = 4.0;
+// [1] How far an entry point may lie from the surface that is seen at its pixel and still be the same: this many texels of
+// the shadow map plus pixels plus this share of the thickness. From there to twice that, the answer fades.
+const float sameSurfaceTexels = 1.5;
+const float sameSurfaceShare = 0.02;
 
 struct Receiver {
-    vec3 position; // world space, scene units
+    vec3 viewPosition; // view space, mm
+    vec3 position;     // world space, scene units
     vec3 normal;   // world space, unit length
     uint material;
     float authored; // mm, 0 = not authored
@@ -206,8 +212,7 @@ void taps(float coordinate, float last, out vec4 texels, out vec4 weights) {
     weights = 0.5 - 0.25 * abs(tap - fraction);
 }
 
-// Transmittance (rgb) and, where it is asked for, thickness in mm (w), filtered over 4x4 texels under a tent of
-// filterRadius. The light's way through what the normal offset cut off is added again. What is filtered is the
+// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way through what the normal offset cut off is added again. What is filtered is the
 // transmittance: light adds up, thickness does not.
 vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
     vec4 columns, rows, columnWeights, rowWeights;
@@ -226,12 +231,33 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
         vec4 depths = plane.constant + plane.slope * y[i];
         thickness[i] = clamp(depths + (plane.square[i] + removed) - stored[i] * range, 0.0, most);
     }
-    float mean = hasFlag(flagThicknessOut) ? dot(thickness * rowWeights, columnWeights) : 0.0; // nobody else asks
+    float mean = dot(thickness * rowWeights, columnWeights);
     return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
 }
 
-// Light of one light through the receiver's body (rgb), and the thickness in mm (w) or, where that is not asked for, 0; -1
-// where none shines through.
+// The pixel that shows a view-space position, mm.
+vec2 pixelOf(vec3 position) {
+    mat2 steps = mat2(stepX(position.z), stepY(position.z));
+    return inverse(steps) * (position.xy - view.rayBias * position.z - view.originBias);
+}
+
+// [0, 1] How surely the camera does not see the point where the light enters: 0 where the pixel there shows that point on
+// a side that the light reaches. Its light is in the irradiance that scatter gathers. `tolerance`: mm.
+float hiddenShare(vec3 entry, vec3 toLight, float tolerance) {
+    ivec2 pixel = ivec2(floor(pixelOf(entry) + 0.5));
+    if (clipW(entry.z) <= 0.0 || !isInArea(pixel)) {
+        return 1.0;
+    }
+    float z = viewZ(pixel);
+    vec3 normal = viewNormal(texelFetch(normalImage, pixel, 0).xyz);
+    if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
+        return 1.0;
+    }
+    float distance = abs(dot(entry - viewPosition(pixel, z), normal));
+    return clamp(distance / (tolerance + length(stepX(z)) * sameSurfaceTexels) - 1.0, 0.0, 1.0);
+}
+
+// Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where none shines through.
 vec4 transmitLight(LightParameters light, Receiver receiver) {
     Incidence incidence = incidenceAt(light, receiver.position);
     float cosine = -dot(receiver.normal, incidence.toLight);
@@ -241,6 +267,7 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     vec4 through = vec4(0.0, 0.0, 0.0, -1.0);
     ShadowPoint point;
     point.inside = false;
+    point.texelSize = 0.0;
     if (light.shadowMap != noShadowMap) {
         point = project(light, receiver);
     }
@@ -249,6 +276,11 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     }
     if (!point.inside && receiver.authored > 0.0) {
         through = vec4(transmittance(receiver.material, receiver.authored), receiver.authored);
+    }
+    for (bool shines = any(greaterThan(through.rgb, vec3(0.0))) && !hasFlag(flagThesisTransmittance); shines; shines = false) {
+        vec3 toLight = mat3(view.viewFromWorld) * incidence.toLight;
+        float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w;
+        through.rgb *= hiddenShare(receiver.viewPosition + through.w * toLight, toLight, tolerance);
     }
     return vec4(through.rgb * incidence.irradiance * cosine, through.w);
 }
@@ -280,7 +312,8 @@ void main() {
     }
     MaterialParameters material = materials[slot];
     Receiver receiver;
-    receiver.position = (view.worldFromView * vec4(viewPosition(pixel, z), 1.0)).xyz;
+    receiver.viewPosition = viewPosition(pixel, z);
+    receiver.position = (view.worldFromView * vec4(receiver.viewPosition, 1.0)).xyz;
     receiver.normal = normal;
     receiver.material = slot;
     receiver.authored = material.thickness;

@@ -9,7 +9,6 @@ layout(binding = 7) writeonly buffer Picture {
 };
 
 const vec3 albedo[] = vec3[](vec3(0.0), vec3(0.85, 0.8, 0.7), vec3(0.75, 0.6, 0.52));
-const float translucency[] = float[](0.0, 0.6, 0.2); // of main.cpp's materials
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -17,7 +16,7 @@ void main() {
     vec3 scattered = imageLoad(scatteredImage, pixel).rgb;
     vec3 transmitted = imageLoad(transmittedImage, pixel).rgb;
     // [snippet: compose]
-    vec3 diffuse = albedo[id] / 3.14159265 * ((1.0 - translucency[id]) * scattered + transmitted);
+    vec3 diffuse = albedo[id] / 3.14159265 * (scattered + transmitted);
     // [end]
     vec3 linear = min(diffuse, vec3(1.0));
     vec3 encoded = mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear, lessThan(linear, vec3(0.0031308)));

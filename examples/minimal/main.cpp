@@ -141,11 +141,10 @@ void setMaterials(nacre::Context& context) {
     NacreMaterial materials[] = {nacreDefaultMaterial(), nacreDefaultMaterial()};
     materials[0].layers = wax;
     materials[0].layerCount = 2;
-    materials[0].translucency = 0.6f;
-    materials[0].exchangeGroups = 1; // wax and skin touch, and keep their light apart
+    materials[0].translucency = 0.8f; // of the light that comes through; 1 is what the layers say
+    materials[0].exchangeGroups = 1;  // wax and skin touch, and keep their light apart
     materials[1].layers = skin;
     materials[1].layerCount = 2;
-    materials[1].translucency = 0.2f;
     materials[1].exchangeGroups = 2;
     check(context.setMaterials(1, materials)); // ids 1 and 2; 0 is everything without subsurface scattering
     // [end]

@@ -28,8 +28,15 @@ struct Material {
     /// [0, 1] how much of the light scatters; 0 leaves the surface as it is. Result = mix(irradiance, scattered,
     /// strength).
     double strength = 1;
-    /// [0, 1] τ: the share of diffuse light that is transmission: albedo·((1 − τ)·scattered + τ·T(d)·back light).
-    double translucency = 0.5;
+    /// [0, 1] multiplies the light that comes through the body; 1 is what the profile says, 0 lets nothing through.
+    /// Diffuse radiance of a closed body = albedo / π · (scattered + translucency · light that came through).
+    double translucency = 1;
+    /// [0, 1] f of a thin wall, a sheet without an inside such as a leaf or paper: the share of diffuse light that
+    /// leaves on the other side. What is reflected is (1 − f) · scattered. 0 = a closed body, which the rest of the
+    /// light leaves elsewhere on its surface.
+    double diffuseTransmission = 0;
+    /// [0, 1] colour of the light that comes through, in place of the albedo. Absent: the albedo.
+    std::optional<Rgb> diffuseTransmissionColor;
     /// [1e-6, 1e4] multiplies every length of the profile: 2 scatters twice as far.
     double scale = 1;
     /// Whether pictures with this material keep two surfaces where one is in front of another, as technique

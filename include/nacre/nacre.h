@@ -31,10 +31,17 @@
  *  Materials are in millimetres. Light is linear. Irradiance is diffuse light without albedo and without specular.
  *
  * WHAT TO DO WITH THE RESULTS
- *  diffuse = albedo / pi * ((1 - translucency) * scattered + transmitted)
- *  where `scattered` is nacreCmdScatter's output, `transmitted` nacreCmdTransmit's (it includes the material's
- *  translucency), and translucency is 0 where transmit is not used. With an albedo image given to nacreCmdScatter,
- *  its output already has the albedo in it, as the material's albedoUse says.
+ *  Closed bodies:  diffuse = albedo / pi * (scattered + transmitted)
+ *  `scattered` is nacreCmdScatter's output: light that entered where the camera sees it. `transmitted` is
+ *  nacreCmdTransmit's: light that entered where the camera does not see it, times the material's translucency. Each
+ *  entry point counts once, so the two are added as they are. Where transmit is not used, transmitted is 0. With an
+ *  albedo image given to nacreCmdScatter, its output already has the albedo in it, as the material's albedoUse says.
+ *  Thin walls (one sheet without an inside: a leaf, paper, cloth) divide the light between their two sides. Of a wall
+ *  that lets the share f through, in the colour c:
+ *                  diffuse = albedo / pi * (1 - f) * scattered + c / pi * transmitted
+ *  with f as the material's translucency. Light that no NacreLight brings (ambient light, an environment) is not in
+ *  `transmitted`: closed bodies need nothing of it; to a thin wall the caller adds c / pi * f * (the irradiance of that
+ *  light on the other side). Where transmit is not used, a wall is drawn with f = 0.
  */
 #ifndef NACRE_H
 #define NACRE_H
@@ -226,7 +233,8 @@ typedef struct NacreMaterial {
     float meanFreePath[3];    /**< [1e-6, 1e4] mm, d of Burley's normalised diffusion; used when layerCount is 0 */
     NacreAlbedoUse albedoUse;
     float strength;           /**< [0, 1] result = mix(irradiance, scattered, strength); 0 = no scattering */
-    float translucency;       /**< [0, 1] share of diffuse light that is transmission; 0 = none */
+    float translucency;       /**< [0, 1] multiplies `transmitted`: 1 = as much as the profile says, 0 = none. For thin
+                                   walls, the share f of the light that goes through (see WHAT TO DO WITH THE RESULTS) */
     float scale;              /**< [1e-6, 1e4] multiplies the profile's lengths, which keep to
                                   their ranges; 0 = 1 */
     float thickness;          /**< [>= 0] mm, authored thickness: bounds the shadow maps' estimate, or stands in for it
@@ -239,13 +247,13 @@ typedef struct NacreMaterial {
                                    Only in contexts made for both techniques. VK_FALSE: as asked for */
 } NacreMaterial;
 
-/** Skin-like defaults: strength 1, translucency 0.5, scale 1, all exchange groups, no second surfaces; the profile is the
+/** Physical defaults: strength 1, translucency 1, scale 1, all exchange groups, no second surfaces; the profile is the
  *  caller's. */
 static inline NacreMaterial nacreDefaultMaterial(void) {
     NacreMaterial material;
     memset(&material, 0, sizeof(material));
     material.strength = 1.0f;
-    material.translucency = 0.5f;
+    material.translucency = 1.0f;
     material.scale = 1.0f;
     material.exchangeGroups = 0xffffffffu;
     return material;
@@ -345,7 +353,8 @@ typedef struct NacreTransmitInfo {
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
     VkBool32 thesisTransmittance; /**< materials of layers: T = sum w exp(-d²/v), the thesis's own form, in place of
                                        exp(-d²/2v), added up layer by layer in every pixel as in its shader */
-    NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none */
+    NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none, and where
+                                       the light enters at a point that the camera sees (but for thesisTransmittance) */
     NacreImage thicknessOut;      /**< optional output, red: the thickness used, mm, smallest over the lights that
                                        reach the pixel from behind; 0 = none. It takes 3 us (as above) */
     NacreTimestamps timestamps;

@@ -1,5 +1,6 @@
-// Puts the picture's radiance together: albedo / pi · ((1 − translucency) · scattered + transmitted) + specular + emission
-// (include/nacre/nacre.h, "What to do with the results"), and the surroundings where there is nothing.
+// Puts the picture's radiance together: albedo / pi · (scattered + transmitted) + specular + emission, with the light of
+// thin walls divided between their two sides (include/nacre/nacre.h, "What to do with the results"), and the surroundings
+// where there is nothing.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"
@@ -12,8 +13,8 @@ layout(set = 0, binding = 0, std140) uniform View {
 layout(set = 0, binding = 1, std140) uniform EnvironmentBlock {
     EnvironmentConstants environment;
 };
-layout(set = 0, binding = 2, std430) readonly buffer Translucencies {
-    float translucencies[]; // by material id
+layout(set = 0, binding = 2, std430) readonly buffer Transmissions {
+    TransmissionConstants transmissions[]; // by material id
 };
 layout(set = 0, binding = 3) uniform sampler2D shadingNormalImage;
 layout(set = 0, binding = 4) uniform sampler2D albedoImage;
@@ -24,7 +25,8 @@ layout(set = 0, binding = 8) uniform sampler2D specularImage;
 layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // written where there is a material
 layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
 layout(set = 0, binding = 11) uniform sampler2D environmentImage;
-layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D outRadiance;
+layout(set = 0, binding = 12) uniform sampler2D occlusionImage;
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D outRadiance;
 layout(push_constant) uniform Push {
     uint scatter;
     uint scatteredHasAlbedo;
@@ -41,12 +43,18 @@ vec3 diffuseRadiance(ivec2 pixel) {
     if (!isScattered || scatteredHasAlbedo == 0u) {
         reflected *= albedo;
     }
-    vec3 transmitted = vec3(0.0);
-    if (transmit != 0u) {
-        reflected *= 1.0 - translucencies[material];
-        transmitted = albedo * texelFetch(transmittedImage, pixel, 0).rgb;
+    if (transmit == 0u) {
+        return reflected / pi;
     }
-    return (reflected + transmitted) / pi;
+    vec3 transmitted = texelFetch(transmittedImage, pixel, 0).rgb;
+    TransmissionConstants transmission = transmissions[material];
+    float share = transmission.share.x;
+    if (share > 0.0) { // a thin wall; what occludes this side stands for what occludes the other
+        vec3 behind = -texelFetch(shadingNormalImage, pixel, 0).xyz;
+        transmitted += share * texelFetch(occlusionImage, pixel, 0).r * environmentIrradiance(environment, behind);
+    }
+    vec3 color = transmission.color.w > 0.0 ? transmission.color.rgb : albedo;
+    return ((1.0 - share) * reflected + color * transmitted) / pi;
 }
 
 void main() {

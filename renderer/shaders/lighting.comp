@@ -89,18 +89,6 @@ void addPunctual(inout Light result, Surface surface, LightConstants light) {
                                                  ggxVisibility(nDotL, nDotV, surface.alpha));
 }
 
-/// E(n) = Σ cᵢ Yᵢ(n), see irradianceHarmonics in environment.hpp.
-vec3 environmentIrradiance(vec3 n) {
-    vec3 sum = environment.irradiance[0].rgb * 0.282095;
-    sum += 0.488603 * (environment.irradiance[1].rgb * n.y + environment.irradiance[2].rgb * n.z +
-                       environment.irradiance[3].rgb * n.x);
-    sum += 1.092548 * (environment.irradiance[4].rgb * (n.x * n.y) + environment.irradiance[5].rgb * (n.y * n.z) +
-                       environment.irradiance[7].rgb * (n.x * n.z));
-    sum += environment.irradiance[6].rgb * (0.315392 * (3.0 * n.z * n.z - 1.0));
-    sum += environment.irradiance[8].rgb * (0.546274 * (n.x * n.x - n.y * n.y));
-    return max(sum, 0.0) * environment.rotation.z;
-}
-
 /// How much of a reflection an ambient occlusion of `visibility` lets through (Lagarde and de Rousiers 2014, "Moving
 /// Frostbite to PBR", listing 26).
 float specularVisibility(float nDotV, float visibility, float alpha) {
@@ -108,7 +96,7 @@ float specularVisibility(float nDotV, float visibility, float alpha) {
 }
 
 void addEnvironment(inout Light result, Surface surface, float visibility) {
-    result.diffuse += environmentIrradiance(environmentDirection(surface.normal, environment.rotation.xy)) * visibility;
+    result.diffuse += environmentIrradiance(environment, surface.normal) * visibility;
     float roughness = sqrt(surface.alpha);
     float nDotV = clamp(dot(surface.normal, surface.toView), 1e-4, 1.0);
     vec2 reflectance = textureLod(reflectanceImage, vec2(nDotV, roughness), 0.0).rg;

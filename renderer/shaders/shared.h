@@ -75,6 +75,12 @@ struct ShadowLayer {
     vec4 direction; ///< w: 1 when depth is along the direction, 0 when it is the distance from the origin
 };
 
+/// How a material's diffuse light divides between the two sides of a surface.
+struct TransmissionConstants {
+    vec4 color; ///< of what comes through; w: 1, or 0 for the albedo
+    vec4 share; ///< x: f of a thin wall, 0 = a closed body
+};
+
 /// The environment's diffuse irradiance: nine spherical harmonics, cosine lobe folded in.
 struct EnvironmentConstants {
     vec4 irradiance[9];
@@ -87,6 +93,7 @@ static_assert(sizeof(SurfaceConstants) == 96);
 static_assert(sizeof(DrawConstants) == 80);
 static_assert(sizeof(LightConstants) == 144);
 static_assert(sizeof(ShadowLayer) == 96);
+static_assert(sizeof(TransmissionConstants) == 32);
 static_assert(sizeof(EnvironmentConstants) == 160);
 } // namespace nacre::renderer::shared
 #endif

@@ -109,8 +109,8 @@ TEST_F(Effect, ScatterAndTransmitReturnNoMoreThanArrives) {
     const Pixels transmitted = renderer.read(Output::Transmitted);
     EXPECT_LE(sum(scattered), 1.01 * sum(irradiance));
     EXPECT_GE(sum(scattered), 0.9 * sum(irradiance));
-    // Opposite lights arrive alike on both sides, so (1 - t) scattered + transmitted may not exceed the irradiance.
-    EXPECT_LE(0.5 * sum(scattered) + sum(transmitted), 1.01 * sum(irradiance));
+    // The ball is many times as thick as the profile is wide, so that next to nothing comes through.
+    EXPECT_LE(sum(scattered) + sum(transmitted), 1.01 * sum(irradiance));
     EXPECT_LE(sum(renderer.read(Output::Radiance)) * pi, 1.01 * sum(irradiance));
 }
 

@@ -243,7 +243,9 @@ TEST(GltfExtensions, MapThinWalls) {
     const Scene leaf =
         squareWith({{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.4}}}}).load();
     ASSERT_EQ(leaf.materials.size(), 1u);
-    EXPECT_DOUBLE_EQ(leaf.materials[0].translucency, 0.4);
+    EXPECT_DOUBLE_EQ(leaf.materials[0].diffuseTransmission, 0.4);
+    EXPECT_DOUBLE_EQ(leaf.materials[0].translucency, 1);
+    EXPECT_EQ(leaf.materials[0].diffuseTransmissionColor, (Rgb{1, 1, 1})); // not the base colour
     const auto profile = makeProfile(leaf.materials[0]);
     EXPECT_GT(profile->slabTransmittance(0, leaf.surfaces[0].thickness), 0.98);
     const Scene sheet = squareWith({{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
@@ -253,7 +255,8 @@ TEST(GltfExtensions, MapThinWalls) {
                                       {"scatterAnisotropy", 0.5}}}})
                             .load();
     ASSERT_EQ(sheet.materials.size(), 1u);
-    EXPECT_DOUBLE_EQ(sheet.materials[0].translucency, 0.75); // forward share (1 + g)/2
+    EXPECT_DOUBLE_EQ(sheet.materials[0].diffuseTransmission, 0.75); // forward share (1 + g)/2
+    EXPECT_FALSE(sheet.materials[0].diffuseTransmissionColor);      // both sides have the medium's colour
     expectVec3(glm::vec3(sheet.surfaces[0].baseColor), {0.6f, 0.7f, 0.8f});
 }
 

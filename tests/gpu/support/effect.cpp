@@ -206,7 +206,8 @@ NacreMaterial toNacre(const Material& material, std::vector<NacreLayer>& storage
     }
     result.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
     result.strength = static_cast<float>(material.strength);
-    result.translucency = static_cast<float>(material.translucency);
+    const double through = material.diffuseTransmission > 0 ? material.diffuseTransmission : 1;
+    result.translucency = static_cast<float>(material.translucency * through);
     result.scale = static_cast<float>(material.scale);
     result.secondSurfaces = material.secondSurfaces.value_or(false);
     return result;
