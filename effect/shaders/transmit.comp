@@ -48,6 +48,8 @@ const float steepestPlane = 4.0;
 // the shadow map plus pixels plus this share of the thickness. From there to twice that, the answer fades.
 const float sameSurfaceTexels = 1.5;
 const float sameSurfaceShare = 0.02;
+// [1] Transmittance below which nobody asks whether scatter has the light already: twice as much of it is not seen.
+const float leastTwice = 1.0 / 256.0;
 
 struct Receiver {
     vec3 viewPosition; // view space, mm
@@ -212,6 +214,11 @@ void taps(float coordinate, float last, out vec4 texels, out vec4 weights) {
     weights = 0.5 - 0.25 * abs(tap - fraction);
 }
 
+// Whether the light that comes through has to be looked for in the picture. The thesis does not ask.
+bool mayCountTwice(vec3 transmittance) {
+    return any(greaterThan(transmittance, vec3(leastTwice))) && !hasFlag(flagThesisTransmittance);
+}
+
 // Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way through what the normal offset cut off is added again. What is filtered is the
 // transmittance: light adds up, thickness does not.
 vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
@@ -243,17 +250,18 @@ vec2 pixelOf(vec3 position) {
 
 // [0, 1] How surely the camera does not see the point where the light enters: 0 where the pixel there shows that point on
 // a side that the light reaches. Its light is in the irradiance that scatter gathers. `tolerance`: mm.
-float hiddenShare(vec3 entry, vec3 toLight, float tolerance) {
+float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolerance) {
+    vec3 entry = receiver.viewPosition + mat3(view.viewFromWorld) * (thickness * toLight);
     ivec2 pixel = ivec2(floor(pixelOf(entry) + 0.5));
     if (clipW(entry.z) <= 0.0 || !isInArea(pixel)) {
         return 1.0;
     }
     float z = viewZ(pixel);
-    vec3 normal = viewNormal(texelFetch(normalImage, pixel, 0).xyz);
+    vec3 normal = texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias;
     if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
         return 1.0;
     }
-    float distance = abs(dot(entry - viewPosition(pixel, z), normal));
+    float distance = abs(dot((entry - viewPosition(pixel, z)) * mat3(view.viewFromWorld), normal));
     return clamp(distance / (tolerance + length(stepX(z)) * sameSurfaceTexels) - 1.0, 0.0, 1.0);
 }
 
@@ -277,10 +285,9 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     if (!point.inside && receiver.authored > 0.0) {
         through = vec4(transmittance(receiver.material, receiver.authored), receiver.authored);
     }
-    for (bool shines = any(greaterThan(through.rgb, vec3(0.0))) && !hasFlag(flagThesisTransmittance); shines; shines = false) {
-        vec3 toLight = mat3(view.viewFromWorld) * incidence.toLight;
+    for (bool asks = mayCountTwice(through.rgb); asks; asks = false) {
         float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w;
-        through.rgb *= hiddenShare(receiver.viewPosition + through.w * toLight, toLight, tolerance);
+        through.rgb *= hiddenShare(receiver, incidence.toLight, through.w, tolerance);
     }
     return vec4(through.rgb * incidence.irradiance * cosine, through.w);
 }

@@ -52,7 +52,8 @@ TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, property] : schema().at("properties").items()) {
         Json material = key == "layers" ? minimalLayers() : minimal();
         if (!material.contains(key)) {
-            const Json value = property.value("type", "") == "boolean" ? Json(true) : Json("text");
+            const std::string type = property.value("type", "");
+            const Json value = type == "boolean" ? Json(true) : type == "array" ? Json({1, 1, 1}) : Json("text");
             material[key] = property.value("default", value);
         }
         EXPECT_TRUE(accepts(material)) << material;
