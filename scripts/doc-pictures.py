@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+"""Makes the pictures of docs/overview.md and docs/scatter.md that show data: a frame's images, and smooth and edge regions.
+
+Usage: doc-pictures.py [NACRE]. NACRE is the command to run; without it, build/release/app/nacre. Needs Python 3 and nothing
+beside its standard library.
+"""
+import math
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+WIDTH, HEIGHT = 640, 360
+FIELD_OF_VIEW = 0.30  # rad, vertical; the gallery's camera (scene/gallery.cpp)
+# The rules that docs/scatter.md states ("Two pipelines"), and their constants (bank_constants.h).
+SMOOTH_STEP, HOLE_STEP, CONTINUED_STEP, SEPARATION, MOST_EDGE_PARTS = 3.0, 0.5, 2.0, 6.0, 2
+PART = (16, 8)
+
+
+def read_exr(path):
+    """The channels of a scanline EXR file, as rows of numbers: uncompressed or ZIP."""
+    with open(path, "rb") as file:
+        data = file.read()
+
+    def text(place):
+        end = data.index(0, place)
+        return data[place:end].decode(), end + 1
+
+    attributes, place = {}, 8
+    while data[place] != 0:
+        name, place = text(place)
+        _, place = text(place)
+        (size,) = struct.unpack_from("<i", data, place)
+        attributes[name] = data[place + 4:place + 4 + size]
+        place += 4 + size
+    place += 1
+
+    channels, list_, at = [], attributes["channels"], 0
+    while list_[at] != 0:
+        end = list_.index(0, at)
+        (kind,) = struct.unpack_from("<i", list_, end + 1)
+        channels.append((list_[at:end].decode(), "Ief"[kind]))
+        at = end + 17
+    left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    rows_a_block = {0: 1, 2: 1, 3: 16}[attributes["compression"][0]]
+    images = {name: [None] * height for name, _ in channels}
+    row_size = sum(struct.calcsize(kind) for _, kind in channels) * width
+    for i in range((height + rows_a_block - 1) // rows_a_block):
+        (offset,) = struct.unpack_from("<Q", data, place + 8 * i)
+        row, size = struct.unpack_from("<ii", data, offset)
+        block = data[offset + 8:offset + 8 + size]
+        count = min(rows_a_block, height - (row - top))
+        if size < row_size * count:
+            block = undo_prediction(bytearray(zlib.decompress(block)))
+        at = 0
+        for y in range(row - top, row - top + count):
+            for name, kind in channels:
+                images[name][y] = struct.unpack_from("<%d%s" % (width, kind), block, at)
+                at += struct.calcsize(kind) * width
+    return images
+
+
+def undo_prediction(block):
+    for i in range(1, len(block)):
+        block[i] = (block[i - 1] + block[i] - 128) & 255
+    half = (len(block) + 1) // 2
+    result = bytearray(len(block))
+    result[0::2], result[1::2] = block[:half], block[half:]
+    return bytes(result)
+
+
+def read_colors(path):
+    images = read_exr(path)
+    return [list(zip(*rows)) for rows in zip(images["R"], images["G"], images["B"])]
+
+
+def read_one(path):
+    return next(iter(read_exr(path).values()))
+
+
+def srgb(value):
+    value = min(max(value, 0.0), 1.0)
+    return round(255 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055))
+
+
+def write_png(path, rows):
+    """Rows of (red, green, blue), 0 to 255."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+    pixels = b"".join(b"\0" + bytes(value for pixel in row for value in pixel) for row in rows)
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(pixels, 9)) + chunk(b"IEND", b""))
+
+
+def halved(rows):
+    """Each 2x2 pixels' mean."""
+    return [[tuple(sum(c) / 4 for c in zip(rows[y][x], rows[y][x + 1], rows[y + 1][x], rows[y + 1][x + 1]))
+             for x in range(0, len(rows[0]), 2)] for y in range(0, len(rows), 2)]
+
+
+def encode(rows, exposure=1.0):
+    return [[tuple(srgb(c * exposure / (1 + 0.4 * c * exposure)) for c in pixel) for pixel in row] for row in rows]
+
+
+def write_frame(folder, images):
+    """The images of one frame: what the effect reads, what it writes, and the picture."""
+    palette = [(0.01, 0.01, 0.012), (0.8, 0.35, 0.22), (0.1, 0.5, 0.25), (0.65, 0.65, 0.62), (0.85, 0.6, 0.3), (0.35, 0.55, 0.1)]
+    depths = images["depth"]
+    near, far = 1.4, 2.3  # scene units: the exhibits
+    depth = [[(min(max((far - z) / (far - near), 0.0), 1.0) ** 2 if z > 0 else 0.0,) * 3 for z in row] for row in depths]
+    material = [[palette[int(i) % len(palette)] for i in row] for row in images["material"]]
+    write_png(folder + "/frame-irradiance.png", encode(halved(images["irradiance"]), 0.25))
+    write_png(folder + "/frame-depth.png", encode(halved(depth)))
+    write_png(folder + "/frame-material.png", encode(halved(material)))
+    write_png(folder + "/frame-scattered.png", encode(halved(images["scattered"]), 0.25))
+    write_png(folder + "/frame-transmitted.png", encode(halved(images["transmitted"]), 0.5))
+    write_png(folder + "/frame-picture.png", encode(halved(images["picture"])))
+
+
+def rough_blocks(depths, materials):
+    """Which blocks of 2x2 px hold a step to another surface, as pass A decides it."""
+    pixel = 2 * math.tan(0.5 * FIELD_OF_VIEW) / HEIGHT
+
+    def distance(x, y):
+        if not (0 <= x < WIDTH and 0 <= y < HEIGHT) or materials[y][x] == 0:
+            return 0.0
+        ray = math.hypot(1.0, (x + 0.5 - WIDTH / 2) * pixel, (y + 0.5 - HEIGHT / 2) * pixel)
+        return depths[y][x] * ray
+
+    along = [[distance(x - 1, y - 1) for x in range(WIDTH + 2)] for y in range(HEIGHT + 2)]
+
+    def is_rough(bx, by):
+        x, y = 2 * bx + 1, 2 * by + 1
+        lines = [[along[y + i][x + k] for k in (-1, 0, 1, 2)] for i in (0, 1)]
+        lines += [[along[y + k][x + i] for k in (-1, 0, 1, 2)] for i in (0, 1)]
+        own = [along[y + i][x + k] for i in (0, 1) for k in (0, 1)]
+        width = max(own) * pixel
+        if width == 0.0:
+            return False
+        has_hole = any(d == 0.0 for line in lines for d in line)
+        steps = [[b - a if min(a, b) > 0 else 0.0 for a, b in zip(line, line[1:])] for line in lines]
+        longest = max(abs(step) for line in steps for step in line)
+        limit = (HOLE_STEP if has_hole else SMOOTH_STEP) * width
+        goes_on = not has_hole and longest <= SEPARATION * 2 * width and all(
+            max(map(abs, line)) <= max(limit, CONTINUED_STEP * max(min(line), -max(line))) for line in steps)
+        present = [d for d in own if d > 0]
+        is_two = max(present) - min(present) > SEPARATION * 2 * width
+        return is_two or (longest > limit and not goes_on)
+
+    return [[is_rough(bx, by) for bx in range(WIDTH // 2)] for by in range(HEIGHT // 2)]
+
+
+def write_regions(path, images):
+    """The gallery with its smooth regions in blue, edge regions in orange."""
+    materials, background = images["material"], images["picture"]
+    rough = rough_blocks(images["depth"], materials)
+    columns, rows = math.ceil(WIDTH / 32) * 2, math.ceil(HEIGHT / 16) * 2
+
+    def is_empty(px, py):  # of a part: no pixel of its tile of 16x16 has a material
+        top = (py // 2) * 16
+        return not any(materials[y][x] for y in range(top, min(top + 16, HEIGHT)) for x in range(px * 16, min(px * 16 + 16, WIDTH)))
+
+    def has_step(px, py):
+        return any(rough[y][x] for y in range(max(4 * py - 1, 0), min(4 * py + 5, HEIGHT // 2))
+                   for x in range(max(8 * px - 1, 0), min(8 * px + 9, WIDTH // 2)))
+
+    kinds = {}
+    for ry in range(rows // 2):
+        for rx in range(columns // 2):
+            parts = [(2 * rx + i, 2 * ry + k) for k in (0, 1) for i in (0, 1)]
+            used = [part for part in parts if not is_empty(*part)]
+            edges = [part for part in used if has_step(*part)]
+            for part in used:
+                kinds[part] = "edge" if part in edges or len(edges) > MOST_EDGE_PARTS else "smooth"
+    tints = {"smooth": (0.12, 0.4, 1.0), "edge": (1.0, 0.42, 0.0)}
+    result = []
+    for y in range(HEIGHT):
+        row = []
+        for x in range(WIDTH):
+            grey = 0.75 * sum(background[y][x]) / 3
+            kind = kinds.get((x // PART[0], y // PART[1]))
+            color = (grey,) * 3
+            if kind:
+                edge = x % PART[0] == 0 or y % PART[1] == 0
+                share = 0.5 if edge else 0.22
+                color = tuple((1 - share) * grey + share * c for c in tints[kind])
+            row.append(tuple(srgb(c) for c in color))
+        result.append(row)
+    write_png(path, result)
+    counts = {kind: sum(k == kind for k in kinds.values()) for kind in tints}
+    print("parts of 16x8 px: %d smooth, %d edge" % (counts["smooth"], counts["edge"]))
+
+
+def main():
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    nacre = sys.argv[1] if len(sys.argv) > 1 else root + "/build/release/app/nacre"
+    folder = root + "/docs/images"
+    with tempfile.TemporaryDirectory() as work:
+        names = ["irradiance", "depth", "material", "scattered", "transmitted"]
+        command = [nacre, "render", "--light", "both", "--size", "%dx%d" % (WIDTH, HEIGHT), "--output", work + "/picture.exr"]
+        for name in names:
+            command += ["--aov", "%s=%s/%s.exr" % (name, work, name)]
+        subprocess.run(command, check=True)
+        images = {name: read_one(work + "/%s.exr" % name) for name in ("depth", "material")}
+        images.update({name: read_colors(work + "/%s.exr" % name) for name in ("irradiance", "scattered", "transmitted", "picture")})
+    write_frame(folder, images)
+    write_regions(folder + "/bank-regions.png", images)
+
+
+if __name__ == "__main__":
+    main()
