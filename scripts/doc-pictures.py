@@ -12,7 +12,9 @@ import sys
 import tempfile
 import zlib
 
-WIDTH, HEIGHT = 640, 360
+FRAME_SIZE = (640, 360)
+REGIONS_SIZE = (1920, 1080)
+REGIONS_CROP = (1190, 170, 640, 400)  # px: left, top, width, height; the dragon
 FIELD_OF_VIEW = 0.30  # rad, vertical; the gallery's camera (scene/gallery.cpp)
 # The rules that docs/scatter.md states ("Two pipelines"), and their constants (bank_constants.h).
 SMOOTH_STEP, HOLE_STEP, CONTINUED_STEP, SEPARATION, MOST_EDGE_PARTS = 3.0, 0.5, 2.0, 6.0, 2
@@ -114,60 +116,62 @@ def write_frame(folder, images):
     near, far = 1.4, 2.3  # scene units: the exhibits
     depth = [[(min(max((far - z) / (far - near), 0.0), 1.0) ** 2 if z > 0 else 0.0,) * 3 for z in row] for row in depths]
     material = [[palette[int(i) % len(palette)] for i in row] for row in images["material"]]
-    write_png(folder + "/frame-irradiance.png", encode(halved(images["irradiance"]), 0.25))
+    write_png(folder + "/frame-irradiance.png", encode(halved(images["irradiance"]), 0.15))
     write_png(folder + "/frame-depth.png", encode(halved(depth)))
     write_png(folder + "/frame-material.png", encode(halved(material)))
-    write_png(folder + "/frame-scattered.png", encode(halved(images["scattered"]), 0.25))
+    write_png(folder + "/frame-scattered.png", encode(halved(images["scattered"]), 0.15))
     write_png(folder + "/frame-transmitted.png", encode(halved(images["transmitted"]), 0.5))
     write_png(folder + "/frame-picture.png", encode(halved(images["picture"])))
 
 
 def rough_blocks(depths, materials):
     """Which blocks of 2x2 px hold a step to another surface, as pass A decides it."""
-    pixel = 2 * math.tan(0.5 * FIELD_OF_VIEW) / HEIGHT
+    width, height = REGIONS_SIZE
+    pixel = 2 * math.tan(0.5 * FIELD_OF_VIEW) / height
 
     def distance(x, y):
-        if not (0 <= x < WIDTH and 0 <= y < HEIGHT) or materials[y][x] == 0:
+        if not (0 <= x < width and 0 <= y < height) or materials[y][x] == 0:
             return 0.0
-        ray = math.hypot(1.0, (x + 0.5 - WIDTH / 2) * pixel, (y + 0.5 - HEIGHT / 2) * pixel)
+        ray = math.hypot(1.0, (x + 0.5 - width / 2) * pixel, (y + 0.5 - height / 2) * pixel)
         return depths[y][x] * ray
 
-    along = [[distance(x - 1, y - 1) for x in range(WIDTH + 2)] for y in range(HEIGHT + 2)]
+    along = [[distance(x - 1, y - 1) for x in range(width + 2)] for y in range(height + 2)]
 
     def is_rough(bx, by):
         x, y = 2 * bx + 1, 2 * by + 1
         lines = [[along[y + i][x + k] for k in (-1, 0, 1, 2)] for i in (0, 1)]
         lines += [[along[y + k][x + i] for k in (-1, 0, 1, 2)] for i in (0, 1)]
         own = [along[y + i][x + k] for i in (0, 1) for k in (0, 1)]
-        width = max(own) * pixel
-        if width == 0.0:
+        size = max(own) * pixel
+        if size == 0.0:
             return False
         has_hole = any(d == 0.0 for line in lines for d in line)
         steps = [[b - a if min(a, b) > 0 else 0.0 for a, b in zip(line, line[1:])] for line in lines]
         longest = max(abs(step) for line in steps for step in line)
-        limit = (HOLE_STEP if has_hole else SMOOTH_STEP) * width
-        goes_on = not has_hole and longest <= SEPARATION * 2 * width and all(
+        limit = (HOLE_STEP if has_hole else SMOOTH_STEP) * size
+        goes_on = not has_hole and longest <= SEPARATION * 2 * size and all(
             max(map(abs, line)) <= max(limit, CONTINUED_STEP * max(min(line), -max(line))) for line in steps)
         present = [d for d in own if d > 0]
-        is_two = max(present) - min(present) > SEPARATION * 2 * width
+        is_two = max(present) - min(present) > SEPARATION * 2 * size
         return is_two or (longest > limit and not goes_on)
 
-    return [[is_rough(bx, by) for bx in range(WIDTH // 2)] for by in range(HEIGHT // 2)]
+    return [[is_rough(bx, by) for bx in range(width // 2)] for by in range(height // 2)]
 
 
 def write_regions(path, images):
-    """The gallery with its smooth regions in blue, edge regions in orange."""
+    """A part of the gallery with its smooth regions in blue, edge regions in orange."""
+    width, height = REGIONS_SIZE
     materials, background = images["material"], images["picture"]
     rough = rough_blocks(images["depth"], materials)
-    columns, rows = math.ceil(WIDTH / 32) * 2, math.ceil(HEIGHT / 16) * 2
+    columns, rows = math.ceil(width / 32) * 2, math.ceil(height / 16) * 2
 
     def is_empty(px, py):  # of a part: no pixel of its tile of 16x16 has a material
         top = (py // 2) * 16
-        return not any(materials[y][x] for y in range(top, min(top + 16, HEIGHT)) for x in range(px * 16, min(px * 16 + 16, WIDTH)))
+        return not any(materials[y][x] for y in range(top, min(top + 16, height)) for x in range(px * 16, min(px * 16 + 16, width)))
 
     def has_step(px, py):
-        return any(rough[y][x] for y in range(max(4 * py - 1, 0), min(4 * py + 5, HEIGHT // 2))
-                   for x in range(max(8 * px - 1, 0), min(8 * px + 9, WIDTH // 2)))
+        return any(rough[y][x] for y in range(max(4 * py - 1, 0), min(4 * py + 5, height // 2))
+                   for x in range(max(8 * px - 1, 0), min(8 * px + 9, width // 2)))
 
     kinds = {}
     for ry in range(rows // 2):
@@ -177,17 +181,17 @@ def write_regions(path, images):
             edges = [part for part in used if has_step(*part)]
             for part in used:
                 kinds[part] = "edge" if part in edges or len(edges) > MOST_EDGE_PARTS else "smooth"
-    tints = {"smooth": (0.12, 0.4, 1.0), "edge": (1.0, 0.42, 0.0)}
+    tints = {"smooth": (0.1, 0.4, 1.0), "edge": (1.0, 0.35, 0.0)}
+    left, top, crop_width, crop_height = REGIONS_CROP
     result = []
-    for y in range(HEIGHT):
+    for y in range(top, top + crop_height):
         row = []
-        for x in range(WIDTH):
-            grey = 0.75 * sum(background[y][x]) / 3
+        for x in range(left, left + crop_width):
+            grey = 0.45 * sum(background[y][x]) / 3
             kind = kinds.get((x // PART[0], y // PART[1]))
             color = (grey,) * 3
             if kind:
-                edge = x % PART[0] == 0 or y % PART[1] == 0
-                share = 0.5 if edge else 0.22
+                share = 0.45 if x % PART[0] == 0 or y % PART[1] == 0 else 0.16
                 color = tuple((1 - share) * grey + share * c for c in tints[kind])
             row.append(tuple(srgb(c) for c in color))
         result.append(row)
@@ -201,15 +205,21 @@ def main():
     nacre = sys.argv[1] if len(sys.argv) > 1 else root + "/build/release/app/nacre"
     folder = root + "/docs/images"
     with tempfile.TemporaryDirectory() as work:
-        names = ["irradiance", "depth", "material", "scattered", "transmitted"]
-        command = [nacre, "render", "--light", "both", "--size", "%dx%d" % (WIDTH, HEIGHT), "--output", work + "/picture.exr"]
-        for name in names:
-            command += ["--aov", "%s=%s/%s.exr" % (name, work, name)]
-        subprocess.run(command, check=True)
-        images = {name: read_one(work + "/%s.exr" % name) for name in ("depth", "material")}
-        images.update({name: read_colors(work + "/%s.exr" % name) for name in ("irradiance", "scattered", "transmitted", "picture")})
-    write_frame(folder, images)
-    write_regions(folder + "/bank-regions.png", images)
+
+        def render(size, aovs, *options):
+            command = [nacre, "render", "--size", "%dx%d" % size, "--output", work + "/picture.exr", *options]
+            for name in aovs:
+                command += ["--aov", "%s=%s/%s.exr" % (name, work, name)]
+            subprocess.run(command, check=True)
+            images = {name: read_one(work + "/%s.exr" % name) for name in ("depth", "material")}
+            for name in ["picture"] + [name for name in aovs if name not in images]:
+                images[name] = read_colors(work + "/%s.exr" % name)
+            return images
+
+        aovs = ["depth", "material"]
+        write_regions(folder + "/bank-regions.png", render(REGIONS_SIZE, aovs, "--light", "front", "--no-scatter", "--no-transmit"))
+        aovs += ["irradiance", "scattered", "transmitted"]
+        write_frame(folder, render(FRAME_SIZE, aovs, "--light", "both"))
 
 
 if __name__ == "__main__":
