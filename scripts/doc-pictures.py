@@ -15,7 +15,7 @@ import zlib
 FRAME_SIZE = (640, 360)
 REGIONS_SIZE = (1920, 1080)
 REGIONS_CROP = (1190, 170, 640, 400)  # px: left, top, width, height; the dragon
-FIELD_OF_VIEW = 0.30  # rad, vertical; the gallery's camera (scene/gallery.cpp)
+FIELD_OF_VIEW = 0.30  # rad, vertical: that of the gallery's camera
 # The rules that docs/scatter.md states ("Two pipelines"), and their constants (bank_constants.h).
 SMOOTH_STEP, HOLE_STEP, CONTINUED_STEP, SEPARATION, MOST_EDGE_PARTS = 3.0, 0.5, 2.0, 6.0, 2
 PART = (16, 8)
