@@ -4,14 +4,13 @@
 
 namespace nacre::renderer {
 
-CopyFloor::CopyFloor(Gpu& gpu, GBuffer& gbuffer, Image& irradiance, const vk::raii::Sampler& nearest) {
+CopyFloor::CopyFloor(Gpu& gpu, const Inputs& inputs, const vk::raii::Sampler& nearest) {
+    const auto& [irradiance, depth, materialId] = inputs;
     const vk::Extent2D extent = irradiance.info().extent;
     copy_ = Image(gpu, {.name = "copy",
                         .format = vk::Format::eR16G16B16A16Sfloat,
                         .extent = extent,
                         .usage = vk::ImageUsageFlagBits::eStorage});
-    Image& depth = gbuffer.image(GBuffer::Depth);
-    Image& materialId = gbuffer.image(GBuffer::MaterialId);
     pass_ = ComputePass(
         gpu, "copy", copy_comp_spv,
         {sampled(irradiance, nearest), sampled(depth, nearest), sampled(materialId, nearest), written(copy_)});

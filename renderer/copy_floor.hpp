@@ -1,7 +1,7 @@
-// The physical floor of scattering: a pass that only moves the bytes. Internal to the renderer.
+// The physical floor of scattering: a pass that only moves the bytes. Internal to the renderer and the
+// benchmark.
 #pragma once
 
-#include "renderer/gbuffer.hpp"
 #include "renderer/pipelines.hpp"
 
 namespace nacre::renderer {
@@ -9,7 +9,13 @@ namespace nacre::renderer {
 /// Reads irradiance, depth and material ids and writes an image like the scattered light's.
 class CopyFloor {
 public:
-    CopyFloor(Gpu& gpu, GBuffer& gbuffer, Image& irradiance, const vk::raii::Sampler& nearest);
+    /// The images that scattering must read, all of one size.
+    struct Inputs {
+        Image& irradiance;
+        Image& depth;
+        Image& materialId;
+    };
+    CopyFloor(Gpu& gpu, const Inputs& inputs, const vk::raii::Sampler& nearest);
 
     void record(const vk::raii::CommandBuffer& commandBuffer) const;
     /// What one pass reads and writes.

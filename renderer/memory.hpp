@@ -129,11 +129,11 @@ void prepare(const vk::raii::CommandBuffer& commandBuffer, std::span<const Image
 
 /// A device buffer filled with `bytes` (at least 16 bytes long, so that an empty one can be bound).
 Buffer uploadBuffer(Gpu& gpu, const std::string& name, std::span<const std::byte> bytes, vk::BufferUsageFlags usage);
-/// Fills mip level 0 of layer 0 and makes the other levels by halving; leaves the image ready for `next`.
+/// Fills mip level 0, layer after layer, and makes the other levels by halving; leaves the image ready for `next`.
 void uploadImage(Gpu& gpu, Image& image, std::span<const std::byte> pixels, const Usage& next);
 /// Mip level 0 of layer 0, rows packed.
 std::vector<std::byte> downloadImage(Gpu& gpu, Image& image);
-/// Bytes per pixel of the formats the renderer uses.
+/// Bytes per pixel of the formats the renderer and the benchmark use.
 std::uint32_t pixelBytes(vk::Format format);
 
 } // namespace nacre::renderer

@@ -174,7 +174,10 @@ Renderer::Implementation::Implementation(Gpu& device, const scene::Scene& input,
       timer(gpu) {
     subsurface.prepareSettings(gpu, settings);
     if (settings.copyFloor) {
-        copyFloor.emplace(gpu, gbuffer, lighting.irradiance(), nearest);
+        copyFloor.emplace(
+            gpu,
+            CopyFloor::Inputs{lighting.irradiance(), gbuffer.image(GBuffer::Depth), gbuffer.image(GBuffer::MaterialId)},
+            nearest);
         report.copyBytes = copyFloor->bytes();
     }
     report.triangles = scene::triangleCount(input);

@@ -1,5 +1,7 @@
 #include "renderer/subsurface.hpp"
 
+#include "renderer/effect_arguments.hpp"
+
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -51,15 +53,6 @@ void copy(float (&target)[3], const glm::vec3& value) {
     std::copy_n(glm::value_ptr(value), 3, target);
 }
 
-NacreImage convert(const Image& image) {
-    const ImageInfo& info = image.info();
-    return {.view = image.view(),
-            .format = static_cast<VkFormat>(info.format),
-            .layout = static_cast<VkImageLayout>(image.lastUsage().layout),
-            .extent = info.extent,
-            .usage = static_cast<VkImageUsageFlags>(info.usage)};
-}
-
 NacreLight convert(const PlacedLight& light) {
     NacreLight result{};
     result.kind = static_cast<NacreLightKind>(light.kind);
@@ -74,31 +67,6 @@ NacreLight convert(const PlacedLight& light) {
     result.shadowLayer = shadowed ? light.shadowLayer : 0;
     std::copy_n(glm::value_ptr(light.shadowClipFromWorld), 16, result.shadowClipFromWorld);
     result.shadowRange = light.shadowRange;
-    return result;
-}
-
-/// `layers` is where the result's layers point to.
-NacreMaterial convert(const Material& material, std::vector<NacreLayer>& layers) {
-    for (const Layer& layer : material.layers) {
-        NacreLayer converted{};
-        std::transform(layer.weight.begin(), layer.weight.end(), converted.weight,
-                       [](double weight) { return static_cast<float>(weight); });
-        converted.variance = static_cast<float>(layer.variance);
-        layers.push_back(converted);
-    }
-    NacreMaterial result = nacreDefaultMaterial();
-    result.layers = layers.data();
-    result.layerCount = static_cast<std::uint32_t>(layers.size());
-    if (material.meanFreePath) {
-        std::transform(material.meanFreePath->begin(), material.meanFreePath->end(), result.meanFreePath,
-                       [](double length) { return static_cast<float>(length); });
-    }
-    result.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
-    result.strength = static_cast<float>(material.strength);
-    const double through = material.diffuseTransmission > 0 ? material.diffuseTransmission : 1;
-    result.translucency = static_cast<float>(material.translucency * through);
-    result.scale = static_cast<float>(material.scale);
-    result.secondSurfaces = asksForSecondSurfaces(material);
     return result;
 }
 
@@ -156,12 +124,7 @@ Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& 
 }
 
 void Subsurface::createContext(Gpu& gpu, std::uint32_t techniques) {
-    NacreContextInfo contextInfo{};
-    contextInfo.headerVersion = NACRE_HEADER_VERSION;
-    contextInfo.instance = *gpu.instance;
-    contextInfo.physicalDevice = *gpu.physicalDevice;
-    contextInfo.device = *gpu.device;
-    contextInfo.getInstanceProcAddr = gpu.context.getDispatcher()->vkGetInstanceProcAddr;
+    NacreContextInfo contextInfo = effectContextInfo(gpu);
     contextInfo.pipelineCache = *pipelines_;
     contextInfo.maxExtent = info_.extent;
     contextInfo.techniques = techniques;
@@ -171,7 +134,6 @@ void Subsurface::createContext(Gpu& gpu, std::uint32_t techniques) {
     contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights_.size()));
     contextInfo.messageCallback = keepMessage;
     contextInfo.userData = message_.get();
-    contextInfo.shaderFloat16 = gpu.halfFloats;
     NacreContext context = nullptr;
     check(nacreCreateContext(&contextInfo, &context));
     context_.reset(context);
@@ -191,7 +153,7 @@ void Subsurface::setMaterials(const std::vector<Material>& materials) {
     std::vector<NacreMaterial> converted;
     std::vector<shared::TransmissionConstants> transmissions(1);
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        converted.push_back(convert(materials[i], layers[i]));
+        converted.push_back(effectMaterial(materials[i], layers[i]));
         transmissions.push_back(makeTransmission(materials[i]));
     }
     if (!converted.empty()) {
@@ -239,23 +201,23 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     Image& materialId = gbuffer.image(GBuffer::MaterialId);
     Image& normal = gbuffer.image(GBuffer::VertexNormal);
     Image& authored = gbuffer.image(GBuffer::Thickness);
-    const NacreImage maps = convert(shadowMaps);
+    const NacreImage maps = effectImage(shadowMaps);
     const NacreCost cost = transmitCost();
     NacreTransmitInfo info{};
     info.view = makeView(frame.view);
     info.frame = frame.index;
-    info.depth = convert(depth);
-    info.materialId = convert(materialId);
-    info.normal = convert(normal);
-    info.thickness = convert(authored);
+    info.depth = effectImage(depth);
+    info.materialId = effectImage(materialId);
+    info.normal = effectImage(normal);
+    info.thickness = effectImage(authored);
     info.lightCount = static_cast<std::uint32_t>(lights_.size());
     info.lights = lights_.data();
     info.shadowMapCount = 1;
     info.shadowMaps = &maps;
     info.thesisTransmittance = settings.thesisTransmittance;
-    info.transmitted = convert(transmitted_);
+    info.transmitted = effectImage(transmitted_);
     if (info_.thickness) {
-        info.thicknessOut = convert(thickness_);
+        info.thicknessOut = effectImage(thickness_);
     }
     info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ");
     check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
@@ -289,16 +251,16 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     info.thesisRadius = settings.thesisRadius;
     info.thesisStrength = settings.thesisStrength;
     info.thesisBakedKernel = settings.thesisBakedKernel && !materials_.empty();
-    info.irradiance = convert(irradiance);
-    info.depth = convert(depth);
-    info.materialId = convert(materialId);
-    info.normal = convert(normal);
+    info.irradiance = effectImage(irradiance);
+    info.depth = effectImage(depth);
+    info.materialId = effectImage(materialId);
+    info.normal = effectImage(normal);
     scatteredHasAlbedo_ = std::ranges::any_of(
         materials_, [](const Material& material) { return material.albedoUse == AlbedoUse::PreAndPost; });
     if (scatteredHasAlbedo_) {
-        info.albedo = convert(gbuffer.image(GBuffer::Albedo));
+        info.albedo = effectImage(gbuffer.image(GBuffer::Albedo));
     }
-    info.scattered = convert(scattered_);
+    info.scattered = effectImage(scattered_);
     info.skipUnscattered = VK_TRUE; // compose asks the id
     info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ");
     check(nacreCmdScatter(context_.get(), *commandBuffer, &info));

@@ -15,8 +15,8 @@ Buffer stage(Gpu& gpu, std::span<const std::byte> bytes) {
     return staging;
 }
 
-vk::BufferImageCopy wholeImage(const Image& image) {
-    return {.imageSubresource = {.aspectMask = image.aspect(), .layerCount = 1},
+vk::BufferImageCopy mostDetailedLevel(const Image& image, std::uint32_t layers) {
+    return {.imageSubresource = {.aspectMask = image.aspect(), .layerCount = layers},
             .imageExtent = {image.info().extent.width, image.info().extent.height, 1}};
 }
 
@@ -36,7 +36,7 @@ void makeSource(const vk::raii::CommandBuffer& commandBuffer, const Image& image
                                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                           .image = image.handle(),
-                                          .subresourceRange = {image.aspect(), level, 1, 0, 1}};
+                                          .subresourceRange = {image.aspect(), level, 1, 0, image.info().layers}};
     commandBuffer.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
@@ -45,9 +45,9 @@ void halve(const vk::raii::CommandBuffer& commandBuffer, const Image& image) {
     const ImageInfo& info = image.info();
     for (std::uint32_t level = 1; level < info.mipLevels; ++level) {
         makeSource(commandBuffer, image, level - 1);
-        const vk::ImageBlit blit{.srcSubresource = {image.aspect(), level - 1, 0, 1},
+        const vk::ImageBlit blit{.srcSubresource = {image.aspect(), level - 1, 0, info.layers},
                                  .srcOffsets = std::array{vk::Offset3D{}, corner(info.extent, level - 1)},
-                                 .dstSubresource = {image.aspect(), level, 0, 1},
+                                 .dstSubresource = {image.aspect(), level, 0, info.layers},
                                  .dstOffsets = std::array{vk::Offset3D{}, corner(info.extent, level)}};
         commandBuffer.blitImage(image.handle(), vk::ImageLayout::eTransferSrcOptimal, image.handle(),
                                 vk::ImageLayout::eTransferDstOptimal, blit, vk::Filter::eLinear);
@@ -75,7 +75,7 @@ void uploadImage(Gpu& gpu, Image& image, std::span<const std::byte> pixels, cons
     gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
         prepare(commandBuffer, {{image, usage::transferWrite}});
         commandBuffer.copyBufferToImage(staging.handle(), image.handle(), vk::ImageLayout::eTransferDstOptimal,
-                                        wholeImage(image));
+                                        mostDetailedLevel(image, image.info().layers));
         halve(commandBuffer, image);
         image.assume(usage::transferRead);
         prepare(commandBuffer, {{image, next}});
@@ -90,7 +90,7 @@ std::vector<std::byte> downloadImage(Gpu& gpu, Image& image) {
     gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
         prepare(commandBuffer, {{image, usage::transferRead}});
         commandBuffer.copyImageToBuffer(image.handle(), vk::ImageLayout::eTransferSrcOptimal, staging.handle(),
-                                        wholeImage(image));
+                                        mostDetailedLevel(image, 1));
         const vk::MemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eTransfer,
                                          .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
                                          .dstStageMask = vk::PipelineStageFlagBits2::eHost,
@@ -102,6 +102,8 @@ std::vector<std::byte> downloadImage(Gpu& gpu, Image& image) {
 
 std::uint32_t pixelBytes(vk::Format format) {
     switch (format) {
+    case vk::Format::eR8Uint:
+        return 1;
     case vk::Format::eR16Uint:
     case vk::Format::eR16Sfloat:
         return 2;
