@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <system_error>
@@ -67,6 +68,23 @@ void requireRange(double value, double low, double high, const std::string& opti
         std::snprintf(text.data(), text.size(), " %g is outside %g to %g", value, low, high);
         throw UsageError(option + text.data());
     }
+}
+
+PictureSize parseSize(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    std::uint64_t width = 0;
+    std::uint64_t height = 0;
+    const auto first = std::from_chars(text.data(), end, width);
+    const bool separated = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+    const auto second = separated ? std::from_chars(first.ptr + 1, end, height) : first;
+    if (!separated || second.ec != std::errc() || second.ptr != end) {
+        throw UsageError("--size '" + text + "' is not WIDTHxHEIGHT in pixels, for example 1280x720");
+    }
+    if (width < 1 || height < 1 || width > maxPictureSide || height > maxPictureSide) {
+        const std::string limit = std::to_string(maxPictureSide);
+        throw UsageError("--size " + text + " is outside 1x1 to " + limit + 'x' + limit);
+    }
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
 CLI::Option* addJsonOption(CLI::App& command, std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 // What the subcommands of `nacre` share.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,17 @@ void writeText(const std::filesystem::path& file, std::string_view text);
 
 /// Throws UsageError, naming the option and its value, unless that is in [low, high].
 void requireRange(double value, double low, double high, const std::string& option);
+
+struct PictureSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// Largest width and height of a picture, px.
+inline constexpr std::uint32_t maxPictureSide = 16384;
+
+/// "WIDTHxHEIGHT" of --size. Throws UsageError.
+PictureSize parseSize(const std::string& text);
 
 /// "--json" of every subcommand that has results.
 CLI::Option* addJsonOption(CLI::App& command, std::filesystem::path& file);

@@ -64,24 +64,6 @@ Value find(const std::array<Named<Value>, count>& table, std::string_view name, 
     return entry->value;
 }
 
-void parseSize(const std::string& text, renderer::RenderSettings& settings) {
-    const char* const end = text.data() + text.size();
-    std::uint64_t width = 0;
-    std::uint64_t height = 0;
-    const auto first = std::from_chars(text.data(), end, width);
-    const bool separated = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
-    const auto second = separated ? std::from_chars(first.ptr + 1, end, height) : first;
-    if (!separated || second.ec != std::errc() || second.ptr != end) {
-        throw UsageError("--size '" + text + "' is not WIDTHxHEIGHT in pixels, for example 1280x720");
-    }
-    if (width < 1 || height < 1 || width > maxPictureSide || height > maxPictureSide) {
-        const std::string limit = std::to_string(maxPictureSide);
-        throw UsageError("--size " + text + " is outside 1x1 to " + limit + 'x' + limit);
-    }
-    settings.width = static_cast<std::uint32_t>(width);
-    settings.height = static_cast<std::uint32_t>(height);
-}
-
 AovOutput parseAov(const std::string& text) {
     const std::size_t separator = text.find('=');
     if (separator == std::string::npos) {
@@ -211,7 +193,9 @@ Examples:
 
 RenderOptions RenderOptionParser::finish() const {
     RenderOptions options = options_;
-    parseSize(size_, options.settings);
+    const PictureSize size = parseSize(size_);
+    options.settings.width = size.width;
+    options.settings.height = size.height;
     options.settings.technique = find(techniques, technique_, "technique");
     options.settings.scatter = !noScatter_;
     options.settings.transmit = !noTransmit_;

@@ -37,9 +37,6 @@ struct RenderOptions {
     std::vector<AovOutput> aovs;
 };
 
-/// Largest width and height of a picture, px.
-inline constexpr std::uint32_t maxPictureSide = 16384;
-
 /// As --technique names it: "default", "separable" …
 std::string_view techniqueName(renderer::Technique technique);
 

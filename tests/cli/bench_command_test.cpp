@@ -1,5 +1,5 @@
 // `nacre bench` as a user runs it: a suite from start to end, comparing runs, bad files, and the report in a browser.
-#include "app/bench/results.hpp"
+#include "bench/results/results.hpp"
 #include "command.hpp"
 #include "scene/image.hpp"
 #include "schema.hpp"
@@ -63,17 +63,34 @@ TEST_F(BenchTest, NeedsASuite) {
     expectComplaint(run({"bench", "diff", "old.json"}), 2, {"NEW"});
 }
 
+void waitUntilItSays(const RunningNacre& nacre, const std::string& text) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (nacre.error().find(text) == std::string::npos && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
+
 // Ctrl-C while it measures: it ends by that signal, and leaves no folder.
 TEST_F(BenchTest, AnInterruptedRunLeavesNothing) {
     const RunningNacre bench({"bench", "thesis", "--quick", "-o", "results"}, folder());
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    while (bench.error().find("warming up") == std::string::npos && std::chrono::steady_clock::now() < deadline) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    EXPECT_EQ(files(), std::vector<std::string>{"results"}) << bench.error();
+    waitUntilItSays(bench, "warming up");
+    EXPECT_TRUE(std::filesystem::exists(folder() / "results")) << bench.error();
     bench.send(SIGINT);
     EXPECT_EQ(bench.wait().exitCode, 128 + SIGINT);
     EXPECT_EQ(files(), std::vector<std::string>{});
+}
+
+// A second run is told at once that it cannot have the folder, and what somebody else puts there is not the run's.
+TEST_F(BenchTest, ARunKeepsItsFolderAndOnlyItsOwn) {
+    const RunningNacre bench({"bench", "thesis", "--quick", "-o", "both"}, folder());
+    waitUntilItSays(bench, "making the scenes");
+    expectComplaint(run({"bench", "pareto", "--quick", "-o", "both"}), 1, {"both", "another benchmark"});
+    writeText(folder() / "both/other", "somebody's");
+    waitUntilItSays(bench, "warming up");
+    bench.send(SIGTERM);
+    EXPECT_EQ(bench.wait().exitCode, 128 + SIGTERM);
+    ASSERT_EQ(files(), (std::vector<std::string>{"both", "both/other"}));
+    EXPECT_EQ(readText(folder() / "both/other"), "somebody's");
 }
 
 TEST_F(BenchTest, DiffOfEqualRunsSucceeds) {
@@ -139,6 +156,55 @@ TEST_F(BenchTest, ParetoOfASmallSceneIsComplete) {
     EXPECT_FALSE(results.noiseFloors.empty());
     EXPECT_TRUE(std::filesystem::exists(folder() / "out/results.csv"));
     EXPECT_TRUE(std::filesystem::exists(folder() / "out/report.html"));
+}
+
+// Tiny pictures: that every suite runs to its end and says what it should, not how fast anything is.
+TEST_F(BenchTest, EffectTimesEverySceneBesideACopy) {
+    const std::vector<std::string> tiny{"--size", "48x32", "--rounds", "1", "--warm-up", "0", "--csv", "effect.csv"};
+    const auto effect = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"bench", "effect"});
+        arguments.insert(arguments.end(), tiny.begin(), tiny.end());
+        return run(arguments, {{"GALLIVM_PERF", "nopt"}}); // a software device compiles sooner so
+    };
+    const Outcome scenes = effect({"--suite", "scenes", "--skip-unscattered", "both"});
+    ASSERT_EQ(scenes.exitCode, 0) << scenes.error;
+    for (const char* text :
+         {"half floats", "plane 48x32 cover 100% footprint 20 px, 6 layers, 4 materials in blocks of 45", "1 materials",
+          "cover 25%", "cover 0%", "spheres 48x32", "tilt 48x32", "thin 48x32", "copy ", "bank ", "bank skipping ",
+          "bank again ", " n 20"}) {
+        EXPECT_NE(scenes.output.find(text), std::string::npos) << text << '\n' << scenes.output;
+    }
+    const std::string csv = readText(folder() / "effect.csv");
+    EXPECT_EQ(countOf(csv, "\n"), 1u + 8 * 4) << csv;
+    EXPECT_EQ(countOf(csv, ",20,"), 8u * 4 + 3 * 4) << "samples, and the footprint of three planes";
+    const Outcome layers =
+        effect({"--suite", "layers", "--techniques", "separable", "--albedo", "post", "--shader-float16", "off"});
+    ASSERT_EQ(layers.exitCode, 0) << layers.error;
+    EXPECT_NE(layers.output.find("us per layer"), std::string::npos) << layers.output;
+    const Outcome transmit = effect({"--suite", "transmit"});
+    ASSERT_EQ(transmit.exitCode, 0) << transmit.error;
+    EXPECT_NE(transmit.output.find("transmit again"), std::string::npos) << transmit.output;
+}
+
+TEST_F(BenchTest, EffectNamesTheOptionThatIsWrong) {
+    expectComplaint(run({"bench", "effect", "--suite", "guess"}), 2, {"--suite", "guess", "held-out"});
+    expectComplaint(run({"bench", "effect", "--techniques", "bank,magic"}), 2, {"--techniques", "magic", "separable"});
+    expectComplaint(run({"bench", "effect", "--albedo", "pre"}), 2, {"--albedo", "pre", "preAndPost"});
+    expectComplaint(run({"bench", "effect", "--skip-unscattered", "yes"}), 2, {"--skip-unscattered", "yes"});
+    expectComplaint(run({"bench", "effect", "--rounds", "0"}), 2, {"--rounds", "0"});
+    expectComplaint(run({"bench", "effect", "--size", "48"}), 2, {"--size", "48", "WIDTHxHEIGHT"});
+    expectComplaint(run({"bench", "effect", "--csv", "none/effect.csv"}), 1, {"none/effect.csv", "cannot be written"});
+    expectComplaint(run({"bench", "shaders", "--technique", "magic"}), 2, {"--technique", "magic", "transmit"});
+    EXPECT_EQ(files(), std::vector<std::string>{});
+}
+
+TEST_F(BenchTest, ContextTimesEveryTechnique) {
+    const Outcome outcome =
+        run({"bench", "context", "--size", "48x32", "--contexts", "1", "--techniques", "bank,separable"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
+    EXPECT_EQ(outcome.output.find("technique,first_ms,cached_median_ms,cached_p5_ms,cached_p95_ms\nbank,"), 0u)
+        << outcome.output;
+    EXPECT_NE(outcome.output.find("\nseparable,"), std::string::npos) << outcome.output;
 }
 
 TEST_F(BenchTest, ReportOpensInABrowserWithEverythingDrawn) {

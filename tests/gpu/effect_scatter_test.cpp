@@ -2,7 +2,7 @@
 // is seen.
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
-#include "tests/support/scatter_scenes.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 #include "tests/support/worst.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Transmit against closed forms: a slab lit from behind by directional, spot and point lights.
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
-#include "tests/support/vector3.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nacre/bank.hpp"
-#include "tests/support/scatter_scenes.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,8 +1,8 @@
 // Synthetic benchmark results with known slopes.
 #pragma once
 
-#include "app/bench/fits.hpp"
-#include "app/bench/results.hpp"
+#include "bench/results/results.hpp"
+#include "bench/results/series_fits.hpp"
 #include "scene/image.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 // scatter, with the distance between surface points in space and the receiver's profile.
 #pragma once
 
-#include "tests/support/scatter_scenes.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 
 namespace nacre::tests {
 

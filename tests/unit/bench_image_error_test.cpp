@@ -1,6 +1,6 @@
 // Errors of pictures with known differences, and the materials that the suites make.
-#include "app/bench/image_error.hpp"
-#include "app/bench/materials.hpp"
+#include "bench/suites/image_error.hpp"
+#include "bench/suites/suite_materials.hpp"
 #include "nacre/kernel.hpp"
 #include "nacre/presets.hpp"
 

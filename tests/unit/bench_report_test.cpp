@@ -1,9 +1,9 @@
 // Fits, plots, conclusion and report of synthetic results whose answers are known.
-#include "app/bench/charts.hpp"
-#include "app/bench/conclusion.hpp"
-#include "app/bench/fits.hpp"
-#include "app/bench/report.hpp"
-#include "app/bench/text.hpp"
+#include "bench/report/charts.hpp"
+#include "bench/report/conclusion.hpp"
+#include "bench/report/html_report.hpp"
+#include "bench/report/report_text.hpp"
+#include "bench/results/series_fits.hpp"
 #include "nacre/files.hpp"
 #include "tests/support/bench_sample.hpp"
 

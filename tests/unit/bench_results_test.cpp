@@ -1,6 +1,6 @@
 // results.json, its table and its schema, and `bench diff` on results with known differences.
-#include "app/bench/diff.hpp"
-#include "app/bench/results.hpp"
+#include "bench/results/results.hpp"
+#include "bench/results/results_diff.hpp"
 #include "nacre/files.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The benchmark's statistics on data whose answers are known.
-#include "app/bench/statistics.hpp"
+#include "bench/time_statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/gpu/support/effect.hpp"
-#include "tests/support/scatter_scenes.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 
 namespace nacre::tests {
 
