@@ -73,6 +73,11 @@ double ratioOf(double time, double other) {
     return other > 0 ? time / other : 1;
 }
 
+double intervalConfidence(std::size_t count) {
+    const boost::math::binomial coin(static_cast<double>(count), 0.5);
+    return std::max(0.0, 1 - 2 * cdf(coin, static_cast<double>(samplesOutsideInterval(count))));
+}
+
 Summary summarize(std::span<const double> samples) {
     if (samples.empty()) {
         throw std::invalid_argument("there is no sample to summarise");
@@ -82,14 +87,13 @@ Summary summarize(std::span<const double> samples) {
     std::sort(ascending.begin(), ascending.end());
     const std::size_t count = ascending.size();
     const std::size_t outside = samplesOutsideInterval(count);
-    const boost::math::binomial coin(static_cast<double>(count), 0.5);
     return {.count = count,
             .median = percentile(ascending, 0.5),
             .p5 = percentile(ascending, 0.05),
             .p95 = percentile(ascending, 0.95),
             .low = ascending[outside],
             .high = ascending[count - 1 - outside],
-            .confidence = std::max(0.0, 1 - 2 * cdf(coin, static_cast<double>(outside)))};
+            .confidence = intervalConfidence(count)};
 }
 
 Line fitLine(std::span<const double> x, std::span<const double> y) {

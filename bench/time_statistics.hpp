@@ -26,6 +26,9 @@ struct Summary {
     bool operator==(const Summary&) const = default;
 };
 
+/// What the interval of Summary::low and Summary::high really has with so many samples.
+double intervalConfidence(std::size_t count);
+
 /// Throws std::invalid_argument when there is no sample or one is not finite.
 Summary summarize(std::span<const double> samples);
 

@@ -35,13 +35,13 @@ cat docs/benchmark/method.md >"$document"
 find docs/benchmark -name results.json -print0 | sort -z | while IFS= read -r -d '' results; do
     folder=$(dirname "$results")
     "$nacre" bench report "$results" >/dev/null
-    rm "$folder/results.csv"
     {
         printf '\n'
         "$nacre" bench markdown "$results"
         show_plots "$folder"
-        printf '\n[Report](%s), [results](%s)\n' "${folder#docs/}/report.html" "${results#docs/}"
+        printf '\n[Results](%s); `nacre bench report %s` makes the report.\n' "${results#docs/}" "$results"
     } >>"$document"
+    rm "$folder/results.csv" "$folder/report.html" # both can be made again
 done
 chmod 644 "$document"
 mv "$document" docs/benchmark.md

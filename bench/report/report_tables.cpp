@@ -151,8 +151,8 @@ std::string passTable(const Results& results, const std::string& series) {
         }
         for (const PassResult& pass : measurement->passes) {
             table.add({technique, formatSize(measurement->width, measurement->height), pass.name,
-                       formatNumber(pass.time.median), formatInterval(pass.time.p5, pass.time.p95),
-                       formatShare(ratioOf(pass.time.median, measurement->frame.median))});
+                       formatNumber(pass.value.median), formatInterval(pass.value.p5, pass.value.p95),
+                       formatShare(ratioOf(pass.value.median, measurement->frame.median))});
         }
     }
     return table.html();
@@ -193,7 +193,7 @@ std::string memoryTable(const Results& results) {
         }
         for (const MemoryUse& use : measurement.memory) {
             table.add(
-                {measurement.technique, size, use.name, formatNumber(static_cast<double>(use.bytes) / 1048576.0)});
+                {measurement.technique, size, use.name, formatNumber(static_cast<double>(use.value) / 1048576.0)});
         }
     }
     return table.html();

@@ -1,11 +1,14 @@
 #include "bench/results/results.hpp"
 
+#include "bench/results/series_fits.hpp"
 #include "nacre/files.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <concepts>
 #include <initializer_list>
 #include <limits>
 #include <set>
@@ -20,7 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* formatName = "nacre-benchmark";
-constexpr int formatVersion = 1;
+constexpr int formatVersion = 2;
+constexpr int writtenDigits = 9; // a report made of the file is the one made at the run
 constexpr std::uint64_t maxResultsBytes = std::uint64_t{256} << 20;
 
 /// What a number may be, as the schema has it.
@@ -39,24 +43,12 @@ template <typename Struct, typename Type> struct Key {
 template <typename Struct, typename Type> Key(const char*, Type Struct::*) -> Key<Struct, Type>;
 template <typename Struct, typename Type> Key(const char*, Type Struct::*, Range) -> Key<Struct, Type>;
 
+// After the count, in the order of the file.
+constexpr double Summary::*summaryValues[] = {&Summary::median, &Summary::p5, &Summary::p95, &Summary::low,
+                                              &Summary::high};
+
 // Every struct's keys, in the order of the file.
 template <typename Struct> constexpr auto keys = nullptr;
-template <>
-constexpr auto keys<Summary> = std::tuple{Key{"count", &Summary::count, Range{.low = 1}},
-                                          Key{"median", &Summary::median, nonNegative},
-                                          Key{"p5", &Summary::p5, nonNegative},
-                                          Key{"p95", &Summary::p95, nonNegative},
-                                          Key{"low", &Summary::low, nonNegative},
-                                          Key{"high", &Summary::high, nonNegative},
-                                          Key{"confidence", &Summary::confidence, unitInterval}};
-template <>
-constexpr auto keys<Line> = std::tuple{Key{"count", &Line::count, Range{.low = 3}},
-                                       Key{"slope", &Line::slope},
-                                       Key{"slopeLow", &Line::slopeLow},
-                                       Key{"slopeHigh", &Line::slopeHigh},
-                                       Key{"intercept", &Line::intercept},
-                                       Key{"rSquared", &Line::rSquared, Range{.high = 1}},
-                                       Key{"robustSlope", &Line::robustSlope}};
 template <>
 constexpr auto keys<Clock> = std::tuple{Key{"name", &Clock::name}, Key{"before", &Clock::before, nonNegative},
                                         Key{"after", &Clock::after, nonNegative}};
@@ -70,9 +62,6 @@ template <>
 constexpr auto keys<Procedure> =
     std::tuple{Key{"quick", &Procedure::quick}, Key{"warmUpFrames", &Procedure::warmUpFrames},
                Key{"repetitions", &Procedure::repetitions}, Key{"seconds", &Procedure::seconds, nonNegative}};
-template <>
-constexpr auto keys<PassResult> = std::tuple{Key{"name", &PassResult::name}, Key{"time", &PassResult::time}};
-template <> constexpr auto keys<MemoryUse> = std::tuple{Key{"name", &MemoryUse::name}, Key{"bytes", &MemoryUse::bytes}};
 template <>
 constexpr auto keys<ImageError> = std::tuple{Key{"psnr", &ImageError::psnr, Range{.low = 0, .high = 200}},
                                              Key{"relMse", &ImageError::relMse, nonNegative},
@@ -110,18 +99,6 @@ constexpr auto keys<NoiseFloor> =
     std::tuple{Key{"id", &NoiseFloor::id}, Key{"series", &NoiseFloor::series}, Key{"first", &NoiseFloor::first},
                Key{"second", &NoiseFloor::second}, Key{"share", &NoiseFloor::share, nonNegative}};
 template <>
-constexpr auto keys<Fit> = std::tuple{Key{"series", &Fit::series},
-                                      Key{"technique", &Fit::technique},
-                                      Key{"width", &Fit::width},
-                                      Key{"height", &Fit::height},
-                                      Key{"variable", &Fit::variable},
-                                      Key{"unit", &Fit::unit},
-                                      Key{"quantity", &Fit::quantity},
-                                      Key{"line", &Fit::line},
-                                      Key{"spread", &Fit::spread, Range{.low = 1}},
-                                      Key{"noise", &Fit::noise, nonNegative},
-                                      Key{"flat", &Fit::flat}};
-template <>
 constexpr auto keys<ImagePair> =
     std::tuple{Key{"series", &ImagePair::series}, Key{"title", &ImagePair::title},
                Key{"before", &ImagePair::before}, Key{"beforeFile", &ImagePair::beforeFile},
@@ -136,7 +113,6 @@ constexpr auto keys<Results> = std::tuple{Key{"suite", &Results::suite},
                                           Key{"procedure", &Results::procedure},
                                           Key{"noiseFloors", &Results::noiseFloors},
                                           Key{"measurements", &Results::measurements},
-                                          Key{"fits", &Results::fits},
                                           Key{"images", &Results::images}};
 
 // -- writing
@@ -145,12 +121,34 @@ Json write(const std::string& value) {
     return value;
 }
 template <typename Number>
-requires std::is_arithmetic_v<Number> Json write(Number value) {
+requires std::integral<Number> Json write(Number value) {
     return value;
+}
+Json write(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value, std::chars_format::general, writtenDigits);
+    std::from_chars(text, end, value);
+    return value;
+}
+Json write(const Summary& summary) {
+    Json array = Json::array({summary.count});
+    for (const double Summary::*value : summaryValues) {
+        array.push_back(write(summary.*value));
+    }
+    return array;
 }
 template <typename Struct>
 requires(!std::is_null_pointer_v<std::remove_cvref_t<decltype(keys<Struct>)>>) Json write(const Struct& value);
 
+template <typename Value> Json write(const std::vector<Named<Value>>& values) {
+    Json object = Json::object();
+    for (const Named<Value>& value : values) {
+        if (!object.emplace(value.name, write(value.value)).second) {
+            throw FileError("\"" + value.name + "\" is given twice");
+        }
+    }
+    return object;
+}
 template <typename Element> Json write(const std::vector<Element>& values) {
     Json array = Json::array();
     for (const Element& value : values) {
@@ -211,9 +209,19 @@ template <typename Struct>
 requires(!std::is_null_pointer_v<std::remove_cvref_t<decltype(keys<Struct>)>>) void read(const Json& value,
                                                                                          const std::string& field,
                                                                                          Struct& result);
+void read(const Json& value, const std::string& field, Summary& result);
 
 template <typename Value> void read(const Json& value, const std::string& field, std::optional<Value>& result) {
     read(value, field, result.emplace());
+}
+template <typename Value> void read(const Json& value, const std::string& field, std::vector<Named<Value>>& result) {
+    if (!value.is_object()) {
+        refuse(field, value, "an object");
+    }
+    for (const auto& [name, member] : value.items()) {
+        result.push_back({name, {}});
+        read(member, field + "." + name, result.back().value);
+    }
 }
 template <typename Element> void read(const Json& value, const std::string& field, std::vector<Element>& result) {
     if (!value.is_array()) {
@@ -242,6 +250,22 @@ void checkRange(const Json& value, const std::string& field, const Range& range)
     if (value.is_number() && (value.get<double>() < range.low || value.get<double>() > range.high)) {
         refuse(field, value, describe(range));
     }
+}
+
+void read(const Json& value, const std::string& field, Summary& result) {
+    if (!value.is_array() || value.size() != 1 + std::size(summaryValues)) {
+        refuse(field, value, "[count, median, p5, p95, low, high]");
+    }
+    const auto readAt = [&](std::size_t index, auto& target, const Range& range) {
+        const std::string place = field + "[" + std::to_string(index) + "]";
+        read(value[index], place, target);
+        checkRange(value[index], place, range);
+    };
+    readAt(0, result.count, {.low = 1});
+    for (std::size_t i = 0; i < std::size(summaryValues); ++i) {
+        readAt(i + 1, result.*summaryValues[i], nonNegative);
+    }
+    result.confidence = intervalConfidence(result.count);
 }
 
 template <typename Type> constexpr bool isOptional = false;
@@ -296,7 +320,7 @@ void check(const Measurement& measurement, const std::string& field) {
     check(measurement.copy, field + ".copy");
     check(measurement.recording, field + ".recording");
     for (const PassResult& pass : measurement.passes) {
-        check(pass.time, field + ".passes: " + pass.name);
+        check(pass.value, field + ".passes: " + pass.name);
     }
 }
 
@@ -348,7 +372,27 @@ Results readResults(std::string_view text) {
     Results results;
     read(json, "", results);
     check(results);
+    results.fits = fitSeries(results.measurements);
     return results;
+}
+
+// Every field on a line of its own, and every element of an array: a configuration that is measured anew changes one.
+std::string layOut(const Json& json) {
+    std::string text;
+    for (const auto& [key, value] : json.items()) {
+        text += (text.empty() ? "{\n" : ",\n") + Json(key).dump() + ": ";
+        if (!value.is_array() || value.empty()) {
+            text += value.dump();
+            continue;
+        }
+        const char* separator = "[\n";
+        for (const Json& element : value) {
+            text += separator + element.dump();
+            separator = ",\n";
+        }
+        text += "\n]";
+    }
+    return text + "\n}\n";
 }
 
 } // namespace
@@ -365,7 +409,7 @@ const Summary* findTime(const Measurement& measurement, std::string_view quantit
     }
     for (const PassResult& pass : measurement.passes) {
         if (pass.name == quantity) {
-            return &pass.time;
+            return &pass.value;
         }
     }
     return nullptr;
@@ -376,7 +420,7 @@ std::string formatResults(const Results& results) {
         check(results);
         Json json{{"format", formatName}, {"schemaVersion", formatVersion}};
         json.update(write(results));
-        return json.dump(1) + '\n';
+        return layOut(json);
     } catch (const std::exception& error) {
         throw std::invalid_argument(std::string("these results cannot be written: ") + error.what());
     }

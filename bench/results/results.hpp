@@ -44,20 +44,16 @@ struct Procedure {
     bool operator==(const Procedure&) const = default;
 };
 
-struct PassResult {
+/// A value of which there are several, by name. In the file it is a key of an object.
+template <typename Value> struct Named {
     std::string name;
-    Summary time; ///< µs
+    Value value{};
 
-    bool operator==(const PassResult&) const = default;
+    bool operator==(const Named&) const = default;
 };
 
-/// Device memory that belongs to a pass or a group of them.
-struct MemoryUse {
-    std::string name;
-    std::uint64_t bytes = 0;
-
-    bool operator==(const MemoryUse&) const = default;
-};
+using PassResult = Named<Summary>;      ///< µs
+using MemoryUse = Named<std::uint64_t>; ///< bytes of device memory that belong to a pass or a group of them
 
 /// Largest PSNR that is written: pictures that are equal have no other.
 inline constexpr double maxPsnr = 200;
@@ -159,13 +155,14 @@ struct Results {
     Procedure procedure;
     std::vector<NoiseFloor> noiseFloors;
     std::vector<Measurement> measurements;
-    std::vector<Fit> fits;
+    std::vector<Fit> fits; ///< fitSeries of the measurements; not in the file
     std::vector<ImagePair> images;
 
     bool operator==(const Results&) const = default;
 };
 
-/// The text of results.json. Throws std::invalid_argument for results that loadResults would refuse.
+/// The text of results.json: one line for each configuration, numbers with nine significant digits. Throws
+/// std::invalid_argument for results that loadResults would refuse.
 std::string formatResults(const Results& results);
 
 /// Reads the text of a results.json; `sourceName` is what an error calls it. Refused with a FileError of one sentence

@@ -74,7 +74,7 @@ std::string formatCsv(const Results& results) {
         addLine(csv, measurement, "copy", measurement.copy);
         addLine(csv, measurement, "recording", measurement.recording);
         for (const PassResult& pass : measurement.passes) {
-            addLine(csv, measurement, "pass: " + pass.name, pass.time);
+            addLine(csv, measurement, "pass: " + pass.name, pass.value);
         }
     }
     return csv;

@@ -37,7 +37,7 @@ std::optional<double> findMedian(const Measurement& measurement, const std::stri
     std::optional<double> sum;
     for (const PassResult& pass : measurement.passes) {
         if (pass.name.starts_with("scatter: ")) { // FrameReport::passes
-            sum = sum.value_or(0) + pass.time.median;
+            sum = sum.value_or(0) + pass.value.median;
         }
     }
     return sum;

@@ -1,6 +1,7 @@
 // results.json, its table and its schema, and `bench diff` on results with known differences.
 #include "bench/results/results.hpp"
 #include "bench/results/results_diff.hpp"
+#include "bench/results/series_fits.hpp"
 #include "nacre/files.hpp"
 
 #include <gtest/gtest.h>
@@ -20,11 +21,11 @@ namespace {
 Summary times(double median) {
     return {.count = 100,
             .median = median,
-            .p5 = 0.97 * median,
-            .p95 = 1.1 * median,
-            .low = 0.995 * median,
-            .high = 1.005 * median,
-            .confidence = 0.9648};
+            .p5 = 97 * median / 100,
+            .p95 = 110 * median / 100,
+            .low = 995 * median / 1000,
+            .high = 1005 * median / 1000,
+            .confidence = intervalConfidence(100)};
 }
 
 Measurement measurement(double radius, double effect) {
@@ -73,18 +74,6 @@ Results sample() {
     for (const double radius : {3.0, 5.0, 7.0}) {
         results.measurements.push_back(measurement(radius, 100 * radius));
     }
-    const Line line{
-        .count = 3, .slope = 100, .slopeLow = 99, .slopeHigh = 101, .intercept = 0, .rSquared = 1, .robustSlope = 100};
-    results.fits.push_back({.series = "experiment 2",
-                            .technique = "thesis",
-                            .width = 1280,
-                            .height = 720,
-                            .variable = "radius",
-                            .unit = "texels",
-                            .quantity = "effect",
-                            .line = line,
-                            .spread = 7.0 / 3,
-                            .noise = 0.02});
     return results;
 }
 
@@ -117,7 +106,10 @@ const Json& resolve(const Json& root, const Json& schema) {
 void expectSchemaFits(const Json& root, const Json& reference, const Json& value, const std::string& field) {
     const Json& schema = resolve(root, reference);
     ASSERT_TRUE(schema.contains("type") || schema.contains("const") || schema.contains("enum")) << field;
-    if (value.is_object()) {
+    if (value.is_object() && schema["additionalProperties"].is_object()) { // values by name
+        ASSERT_FALSE(value.empty()) << field;
+        expectSchemaFits(root, schema["additionalProperties"], value.front(), field + ".*");
+    } else if (value.is_object()) {
         EXPECT_EQ(schema["type"], "object") << field;
         EXPECT_EQ(schema["additionalProperties"], false) << field;
         std::set<std::string> properties = keysOf(schema["properties"]);
@@ -133,6 +125,8 @@ void expectSchemaFits(const Json& root, const Json& reference, const Json& value
     } else if (value.is_array()) {
         EXPECT_EQ(schema["type"], "array") << field;
         ASSERT_FALSE(value.empty()) << field;
+        EXPECT_GE(value.size(), schema.value("minItems", 0u)) << field;
+        EXPECT_LE(value.size(), schema.value("maxItems", 1000u)) << field;
         expectSchemaFits(root, schema["items"], value[0], field + "[0]");
     } else if (schema.contains("type")) {
         const std::string type = value.is_string() ? "string" : value.is_boolean() ? "boolean" : "number";
@@ -149,6 +143,7 @@ TEST(Results, SurviveTheirFile) {
 TEST(Results, WithoutAnErrorStayWithout) {
     Results results = sample();
     results.measurements[1].error.reset();
+    results.fits = fitSeries(results.measurements);
     EXPECT_EQ(parseResults(formatResults(results), "sample"), results);
 }
 
@@ -172,8 +167,8 @@ TEST(Results, EveryTruncationIsRefusedInOneSentence) {
 
 TEST(Results, RefusalNamesTheFieldAndItsValue) {
     Json json = sampleJson();
-    json["schemaVersion"] = 2;
-    EXPECT_EQ(refusal(json.dump()), "results.json: schemaVersion is 2, must be 1");
+    json["schemaVersion"] = 1;
+    EXPECT_EQ(refusal(json.dump()), "results.json: schemaVersion is 1, must be 2");
 
     json = sampleJson();
     json["measurements"][1].erase("effect");
@@ -193,11 +188,20 @@ TEST(Results, RefusalNamesTheFieldAndItsValue) {
     EXPECT_EQ(refusal(json.dump()), "results.json: machine.device is 7, must be a string");
 
     json = sampleJson();
-    json["measurements"][2]["effect"]["median"] = "fast";
-    EXPECT_EQ(refusal(json.dump()), "results.json: measurements[2].effect.median is \"fast\", must be a number");
+    json["measurements"][2]["effect"][1] = "fast";
+    EXPECT_EQ(refusal(json.dump()), "results.json: measurements[2].effect[1] is \"fast\", must be a number");
 
     json = sampleJson();
-    json["measurements"][2]["effect"]["median"] = 1e9;
+    json["measurements"][0]["copy"].erase(5);
+    EXPECT_EQ(refusal(json.dump()), "results.json: measurements[0].copy is [100,10.0,9.7,11.0,9.95], must be "
+                                    "[count, median, p5, p95, low, high]");
+
+    json = sampleJson();
+    json["measurements"][0]["memory"] = 7;
+    EXPECT_EQ(refusal(json.dump()), "results.json: measurements[0].memory is 7, must be an object");
+
+    json = sampleJson();
+    json["measurements"][2]["effect"][1] = 1e9;
     EXPECT_EQ(refusal(json.dump()), "results.json: measurements[2].effect is no summary of measured times");
 
     json = sampleJson();
@@ -209,12 +213,10 @@ TEST(Results, KeepToTheSchemasRanges) {
     const std::tuple<const char*, Json, const char*> faults[] = {
         {"/measurements/0/coverage", 1.5, "measurements[0].coverage is 1.5, must be a number from 0 to 1"},
         {"/measurements/0/height", 0, "measurements[0].height is 0, must be a number from 1"},
-        {"/measurements/0/effect/low", -1, "measurements[0].effect.low is -1, must be a number from 0"},
-        {"/measurements/0/effect/confidence", 2, "effect.confidence is 2, must be a number from 0 to 1"},
+        {"/measurements/0/effect/4", -1, "measurements[0].effect[4] is -1, must be a number from 0"},
+        {"/measurements/0/effect/0", 0, "measurements[0].effect[0] is 0, must be a number from 1"},
         {"/measurements/1/error/psnr", 300, "measurements[1].error.psnr is 300, must be a number from 0 to 200"},
         {"/noiseFloors/0/share", -0.1, "noiseFloors[0].share is -0.1, must be a number from 0"},
-        {"/fits/0/line/rSquared", 1.5, "fits[0].line.rSquared is 1.5, must be a number up to 1"},
-        {"/fits/0/spread", 0.5, "fits[0].spread is 0.5, must be a number from 1"},
         {"/suite", "guess", R"(suite is "guess", must be one of "thesis", "sweep", "pareto")"},
         {"/machine/kind", "abacus", R"(machine.kind is "abacus", must be one of "discrete")"}};
     for (const auto& [pointer, value, sentence] : faults) {
@@ -228,6 +230,35 @@ TEST(Results, ThatMakeNoSenseAreNotWritten) {
     Results results = sample();
     results.measurements[0].effect.median = -1;
     EXPECT_THROW(formatResults(results), std::invalid_argument);
+}
+
+TEST(Results, OfWhichAPassIsGivenTwiceAreNotWritten) {
+    Results results = sample();
+    results.measurements[0].passes.push_back(results.measurements[0].passes[0]);
+    EXPECT_THROW(formatResults(results), std::invalid_argument);
+}
+
+TEST(Results, HaveALineForEachConfigurationAndNineDigits) {
+    Results results = sample();
+    results.measurements[1].effect = times(100.0 / 3);
+    const std::string text = formatResults(results);
+    EXPECT_NE(text.find("\"effect\":[100,33.3333333,32.3333333,36.6666667,33.1666667,33.5]"), std::string::npos)
+        << text;
+    std::size_t lines = 0;
+    for (std::size_t at = 0; (at = text.find("\n{\"id\":", at)) != std::string::npos; ++at) {
+        ++lines;
+    }
+    EXPECT_EQ(lines, results.measurements.size() + results.noiseFloors.size());
+}
+
+TEST(Results, HaveTheLinesThroughTheirSeries) {
+    Results results = sample();
+    for (Measurement& measurement : results.measurements) {
+        measurement.error.reset();
+    }
+    const Results read = parseResults(formatResults(results), "sample");
+    EXPECT_EQ(read.fits, fitSeries(results.measurements));
+    EXPECT_FALSE(read.fits.empty());
 }
 
 TEST(Results, SchemaDescribesTheFile) {
