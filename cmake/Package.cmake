@@ -35,7 +35,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/nacre DESTINATION ${CMAKE_INSTAL
         FILES_MATCHING PATTERN *.h PATTERN *.hpp PATTERN files.hpp EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT nacre)
 # The parts, for engines that dispatch by themselves: GLSL sources and the SPIR-V made of them.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/effect/shaders DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre COMPONENT nacre)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/effect/ DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre/shaders COMPONENT nacre
+        FILES_MATCHING PATTERN *.comp PATTERN *.glsl PATTERN *.h PATTERN api EXCLUDE PATTERN contract EXCLUDE PATTERN vulkan EXCLUDE)
 get_target_property(spirv nacre NACRE_SPIRV)
 install(FILES ${spirv} DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre/spirv COMPONENT nacre)
 

@@ -24,7 +24,7 @@
  *            images. Where an optional image is not given any other sampled image stands in, and is not read; for
  *            "thicknessOut" the output does, and for shadow maps that are not given any 2D array image.
  *
- * Blocks are laid out as the structures of shared.h among the shaders (C++ and GLSL), which say what is in them.
+ * Blocks are laid out as the structures of interface/blocks.h among the shaders (C++ and GLSL), which say what is in them.
  */
 #ifndef NACRE_PARTS_H
 #define NACRE_PARTS_H

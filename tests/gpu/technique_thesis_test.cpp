@@ -1,5 +1,5 @@
 // Technique `thesis` against the thesis's listings (appendix B), run in double precision on the CPU: as they stand
-// where they are sound, with their faults mended as effect/shaders/scatter_thesis.comp mends them elsewhere.
+// where they are sound, with their faults mended as effect/baselines/thesis/scatter_thesis.comp mends them elsewhere.
 #include "nacre/kernel.hpp"
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"

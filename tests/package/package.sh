@@ -75,9 +75,11 @@ for kind in static shared; do
     run env LD_LIBRARY_PATH="$work/$kind/lib" "./pkg-config-parts-$kind"
     # The GLSL is whole: every pass compiles where it is installed.
     shaders=$(ask --variable=shaders)
-    for pass in "$shaders"/*.comp; do
+    find "$shaders" -name '*.comp' > passes.txt
+    [ -s passes.txt ]
+    while read -r pass; do
         clean glslc --target-env=vulkan1.2 -I "$shaders" "$pass" -o pass.spv
-    done
+    done < passes.txt
 done
 
 for kind in static shared; do

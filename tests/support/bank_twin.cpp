@@ -8,7 +8,7 @@
 namespace nacre::tests {
 namespace {
 
-constexpr int tileSize = 32;  // px, as in effect/scatter_bank.cpp
+constexpr int tileSize = 32;  // px, as in effect/bank/bank_technique.cpp
 constexpr int partWidth = 16; // of pass C's edge regions, px; its smooth ones are 2x2 of them
 constexpr int partHeight = 8;
 

@@ -1,4 +1,4 @@
-// The bank technique in double precision on the CPU, pass by pass: what effect/shaders/bank_*.comp compute.
+// The bank technique in double precision on the CPU, pass by pass: what effect/bank/bank_*.comp compute.
 #pragma once
 
 #include "nacre/bank.hpp"

@@ -9,7 +9,7 @@
 namespace nacre::tests {
 
 namespace constants {
-#include "effect/shaders/bank_constants.h"
+#include "effect/bank/bank_constants.h"
 } // namespace constants
 static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
 static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave);

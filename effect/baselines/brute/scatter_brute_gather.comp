@@ -1,0 +1,204 @@
+// Second pass of `brute`: sum over every pixel within the radius of R(distance)·area·light, divided by that of
+// R(distance)·area. A pixel's surface is a flat patch, lit evenly. Within cellRadius px the profile varies on a patch:
+// there its integral over the patch is taken; further out its value at the pixel's centre, from the radial table.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "interface/scatter.glsl"
+#include "interface/tangent_plane.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
+    BruteTable tables[];
+};
+layout(set = 0, binding = bindingIntermediates + intermediatePixels, std430) readonly buffer Pixels {
+    BrutePixel pixels[];
+};
+
+// [px] Half width of the square whose patches are integrated. A Gaussian of 2 px, the narrowest whose values at pixel
+// centres may stand for its integrals (edge response within 0.25 %), has fallen to 8 % there.
+const int cellRadius = 4;
+// [standard deviations] of a Gaussian, beyond which it is left out of the integrals.
+const float gaussianReach = 4.5;
+const float pi = 3.14159265;
+
+struct Sum {
+    vec3 light;
+    vec3 weight;
+};
+
+struct Receiver {
+    ivec2 local;
+    uint material;
+    vec3 position;
+};
+
+// Abramowitz and Stegun 7.1.26, |error| < 1.5e-7.
+float errorFunction(float x) {
+    float t = 1.0 / (1.0 + 0.3275911 * abs(x));
+    float tail = ((((1.061405429 * t - 1.453152027) * t + 1.421413741) * t - 0.284496736) * t + 0.254829592) * t;
+    return sign(x) * (1.0 - tail * exp(-x * x));
+}
+
+// The pixel at an offset; its light's w is 0 when it gives the receiver nothing.
+BrutePixel pixelAt(Receiver receiver, ivec2 offset) {
+    ivec2 local = receiver.local + offset;
+    if (any(lessThan(local, ivec2(0))) || any(greaterThanEqual(local, view.areaExtent))) {
+        return BrutePixel(vec4(0.0), vec4(0.0), vec2(0.0), vec2(0.0));
+    }
+    BrutePixel pixel = pixels[local.y * view.areaExtent.x + local.x];
+    if (pixel.light.w > 0.0 && !exchanges(uint(pixel.position.w), receiver.material)) {
+        pixel.light.w = 0.0;
+    }
+    return pixel;
+}
+
+// The patch of a pixel at an offset.
+TangentPlane patchAt(Receiver receiver, ivec2 offset, BrutePixel pixel) {
+    return tangentPlane(receiver.local + offset + view.areaOffset, pixel.position.z, pixel.slope);
+}
+
+// Gauss-Legendre quadrature with ten points on [−1, 1], which is symmetric.
+const float nodes[5] = float[](0.1488743390, 0.4333953941, 0.6794095683, 0.8650633667, 0.9739065285);
+const float nodeWeights[5] = float[](0.2955242247, 0.2692667193, 0.2190863625, 0.1494513492, 0.0666713443);
+
+// Integral of a Gaussian over the points offset + u·x + v·y, u and v in [−½, ½]: error functions along u, quadrature
+// along v, over the part of it where the Gaussian is.
+float patchMass(vec3 offset, TangentPlane surface, float variance) {
+    float xx = dot(surface.x, surface.x);
+    vec3 across = surface.y - surface.x * (dot(surface.y, surface.x) / xx); // parts across x
+    vec3 offsetAcross = offset - surface.x * (dot(offset, surface.x) / xx);
+    float acrossSquared = dot(across, across);
+    float middle = -dot(offsetAcross, across) / acrossSquared;
+    float reach = gaussianReach * sqrt(variance / acrossSquared);
+    float low = max(-0.5, middle - reach);
+    float high = min(0.5, middle + reach);
+    if (low >= high) {
+        return 0.0;
+    }
+    float scale = sqrt(xx / (2.0 * variance));
+    float sum = 0.0;
+    for (int i = 0; i < 10; ++i) {
+        float node = i < 5 ? nodes[i] : -nodes[i - 5];
+        float v = 0.5 * (low + high) + 0.5 * (high - low) * node;
+        vec3 distanceAcross = offsetAcross + v * across;
+        float nearest = -dot(offset + v * surface.y, surface.x) / xx; // u
+        float alongMass = errorFunction((0.5 - nearest) * scale) + errorFunction((0.5 + nearest) * scale);
+        sum += nodeWeights[i % 5] * exp(-dot(distanceAcross, distanceAcross) / (2.0 * variance)) * alongMass;
+    }
+    return 0.25 * sum * (high - low) * sqrt(acrossSquared / (2.0 * pi * variance));
+}
+
+// One Gaussian layer over the square's patches.
+void addLayer(Receiver receiver, vec4 layer, inout Sum sum) {
+    float variance = max(layer.w, 1e-8);
+    float deviation = sqrt(variance);
+    for (int y = -cellRadius; y <= cellRadius; ++y) {
+        for (int x = -cellRadius; x <= cellRadius; ++x) {
+            BrutePixel pixel = pixelAt(receiver, ivec2(x, y));
+            if (pixel.light.w <= 0.0) {
+                continue;
+            }
+            vec3 offset = pixel.position.xyz - receiver.position;
+            TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
+            float halfSize = 0.5 * (length(surface.x) + length(surface.y));
+            if (length(offset) < halfSize + gaussianReach * deviation) {
+                vec3 weight = layer.rgb * patchMass(offset, surface, variance);
+                sum.light += weight * pixel.light.rgb;
+                sum.weight += weight;
+            }
+        }
+    }
+}
+
+// Burley's profile (Christensen and Burley 2015) per channel, 1/mm².
+vec3 burley(float distance, vec3 meanFreePath) {
+    vec3 decay = exp(-distance / (3.0 * meanFreePath));
+    return (decay * decay * decay + decay) / (8.0 * pi * meanFreePath * distance);
+}
+
+// Burley's profile over the square's cells: R has a pole at 0, so the receiver's own cell is replaced by the disc of
+// equal area (closed form; the square's integral of 1/r is 0.6 % less) and its neighbours are sampled finely.
+void addBurley(Receiver receiver, vec3 meanFreePath, inout Sum sum) {
+    for (int y = -cellRadius; y <= cellRadius; ++y) {
+        for (int x = -cellRadius; x <= cellRadius; ++x) {
+            BrutePixel pixel = pixelAt(receiver, ivec2(x, y));
+            if (pixel.light.w <= 0.0) {
+                continue;
+            }
+            vec3 weight = vec3(0.0);
+            if (x == 0 && y == 0) {
+                vec3 decay = exp(-sqrt(pixel.light.w / pi) / (3.0 * meanFreePath));
+                weight = 1.0 - 0.25 * decay * decay * decay - 0.75 * decay;
+            } else {
+                TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
+                int samples = max(abs(x), abs(y)) == 1 ? 6 : 2;
+                for (int i = 0; i < samples * samples; ++i) {
+                    vec2 inside = (vec2(i % samples, i / samples) + 0.5) / float(samples) - 0.5;
+                    vec3 point = pixel.position.xyz + inside.x * surface.x + inside.y * surface.y;
+                    weight += burley(max(distance(point, receiver.position), 1e-6), meanFreePath);
+                }
+                weight *= pixel.light.w / float(samples * samples);
+            }
+            sum.light += weight * pixel.light.rgb;
+            sum.weight += weight;
+        }
+    }
+}
+
+vec3 radialAt(uint material, float share) {
+    float position = sqrt(share) * float(radialEntries - 1u);
+    uint index = min(uint(position), radialEntries - 2u);
+    return mix(tables[material].radial[index].rgb, tables[material].radial[index + 1u].rgb, position - float(index));
+}
+
+// The pixels outside the square.
+void addFar(Receiver receiver, float radius, inout Sum sum) {
+    // Pixels per radius where the surface is nearest to the camera within it.
+    float nearest = min(receiver.position.z + radius, 0.5 * receiver.position.z);
+    vec2 reach = ceil(radius / vec2(length(stepX(nearest)), length(stepY(nearest))));
+    ivec2 low = max(receiver.local - ivec2(min(reach, vec2(32768.0))), ivec2(0)) - receiver.local;
+    ivec2 high = min(receiver.local + ivec2(min(reach, vec2(32768.0))), view.areaExtent - 1) - receiver.local;
+    for (int y = low.y; y <= high.y; ++y) {
+        float height = float(y) / reach.y;
+        int halfWidth = int(ceil(reach.x * sqrt(max(1.0 - height * height, 0.0))));
+        for (int x = max(low.x, -halfWidth); x <= min(high.x, halfWidth); ++x) {
+            if (max(abs(x), abs(y)) <= cellRadius) {
+                continue;
+            }
+            BrutePixel pixel = pixelAt(receiver, ivec2(x, y));
+            float share = distance(pixel.position.xyz, receiver.position) / radius;
+            if (pixel.light.w > 0.0 && share < 1.0) {
+                vec3 weight = radialAt(receiver.material, share) * pixel.light.w;
+                sum.light += weight * pixel.light.rgb;
+                sum.weight += weight;
+            }
+        }
+    }
+}
+
+void main() {
+    ivec2 local = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(local, view.areaExtent))) {
+        return;
+    }
+    ivec2 pixel = local + view.areaOffset;
+    uint material = materialAt(pixel);
+    float z = viewZ(pixel);
+    if (material == 0u || !isValidZ(z) || strengthAt(pixel, material) == 0.0) {
+        writeUnscattered(pixel, material);
+        return;
+    }
+    Receiver receiver = Receiver(local, material, viewPosition(pixel, z));
+    Sum sum = Sum(vec3(0.0), vec3(0.0));
+    uint layerCount = uint(tables[material].meanFreePath.w);
+    for (uint layer = 0u; layer < layerCount; ++layer) {
+        addLayer(receiver, tables[material].layers[layer], sum);
+    }
+    if (layerCount == 0u) {
+        addBurley(receiver, tables[material].meanFreePath.rgb, sum);
+    }
+    if (materials[material].radius > 0.0) {
+        addFar(receiver, materials[material].radius, sum);
+    }
+    writeScattered(pixel, material, sum.light / max(sum.weight, vec3(1e-30)));
+}

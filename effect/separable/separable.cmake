@@ -1,0 +1,3 @@
+target_sources(nacre PRIVATE separable/separable_technique.cpp)
+nacre_shader(nacre separable/scatter_separable.comp NAME scatter_separable_rows TRANSLATED DEFINES HORIZONTAL)
+nacre_shader(nacre separable/scatter_separable.comp NAME scatter_separable_columns TRANSLATED)

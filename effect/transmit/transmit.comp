@@ -1,0 +1,344 @@
+// Light that comes through: per light, the thickness between the pixel and where the light enters (shadow map), the
+// slab transmittance of the material's profile at that thickness, times the light's irradiance on the far side. Light
+// that enters where the camera sees it is scatter's, and is left out here.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "interface/blocks.h"
+
+layout(constant_id = 0) const bool severalShadowMaps = false; // else all lights have the first
+
+layout(local_size_x = 8, local_size_y = 16) in;
+layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
+    TransmitParameters parameters;
+};
+layout(set = 0, binding = bindingMaterials, std430) readonly buffer Materials {
+    uint slots[materialIdCount];
+    MaterialParameters materials[];
+};
+layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
+    TransmitTable tables[];
+};
+layout(set = 0, binding = bindingLights, std430) readonly buffer Lights {
+    LightParameters lights[];
+};
+layout(set = 0, binding = bindingDepth) uniform texture2D depthImage;
+layout(set = 0, binding = bindingMaterialId) uniform utexture2D materialIdImage;
+layout(set = 0, binding = bindingNormal) uniform texture2D normalImage;
+layout(set = 0, binding = bindingStrength) uniform texture2D strengthImage;
+layout(set = 0, binding = bindingThickness) uniform texture2D thicknessImage;
+layout(set = 0, binding = bindingShadowMaps) uniform texture2DArray shadowMaps[maxShadowMaps];
+layout(set = 0, binding = bindingTransmitted) uniform writeonly image2D transmittedImage;
+layout(set = 0, binding = bindingThicknessOut) uniform writeonly image2D thicknessOutImage;
+
+#define view parameters.view
+#include "interface/pixel_geometry.glsl"
+#include "transmittance.glsl"
+
+const uint lightDirectional = 0u; // NacreLightKind
+const uint lightSpot = 1u;
+const uint lightPoint = 2u;
+const uint noShadowMap = 0xffffffffu;
+
+// [1] Least cosine between -normal and the light by which the receiver's offset is turned into thickness.
+const float leastCosine = 0.2;
+// [1] Longest step along the receiver's plane, over texel size, that taps follow.
+const float steepestPlane = 4.0;
+// [1] How far an entry point may lie from the surface that is seen at its pixel and still be the same: this many texels of
+// the shadow map plus pixels plus this share of the thickness. From there to twice that, the answer fades.
+const float sameSurfaceTexels = 1.5;
+const float sameSurfaceShare = 0.02;
+// [1] Transmittance below which nobody asks whether scatter has the light already: twice as much of it is not seen.
+const float leastTwice = 1.0 / 256.0;
+
+struct Receiver {
+    vec3 viewPosition; // view space, mm
+    vec3 position;     // world space, scene units
+    vec3 normal;   // world space, unit length
+    uint material;
+    float authored; // mm, 0 = not authored
+};
+
+// A light as the receiver sees it.
+struct Incidence {
+    vec3 toLight;
+    vec3 irradiance; // on a surface that faces the light
+};
+
+// Projects offsets from the light to a layer of its shadow map: rows for texel coordinates times w, and for w.
+struct ShadowProjection {
+    vec4 x, y, w;
+    uint layer;
+};
+
+// Where the receiver falls in a shadow map, moved inwards by the normal offset, so that at silhouettes it finds its own
+// body.
+struct ShadowPoint {
+    ShadowProjection projection;
+    vec3 offset; // from the light, scene units
+    vec2 texel;
+    float w;
+    float texelSize; // scene units
+    float moved;     // scene units
+    bool inside;
+};
+
+// Punctual lights as in glTF's KHR_lights_punctual: 1/d² · saturate(1 - (d/range)⁴), squared linear cone.
+Incidence incidenceAt(LightParameters light, vec3 position) {
+    if (light.kind == lightDirectional) {
+        return Incidence(-light.direction.xyz, light.irradiance.rgb);
+    }
+    vec3 offset = light.position.xyz - position;
+    float squared = max(dot(offset, offset), 1e-12);
+    vec3 toLight = offset * inversesqrt(squared);
+    float meters = light.irradiance.w;
+    float attenuation = 1.0 / (squared * meters * meters);
+    if (light.position.w > 0.0) {
+        float share = squared / (light.position.w * light.position.w);
+        attenuation *= clamp(1.0 - share * share, 0.0, 1.0);
+    }
+    if (light.kind == lightSpot) {
+        float cone = clamp(dot(light.direction.xyz, -toLight) * light.coneScale + light.coneOffset, 0.0, 1.0);
+        attenuation *= cone * cone;
+    }
+    return Incidence(toLight, light.irradiance.rgb * attenuation);
+}
+
+// The face that an offset points at, as in Vulkan's cube maps ("Cube Map Face Selection").
+ShadowProjection cubeFace(LightParameters light, vec3 offset) {
+    vec3 size = abs(offset);
+    bool x = size.x >= size.y && size.x >= size.z;
+    bool y = !x && size.y >= size.z;
+    float side = (x ? offset.x : y ? offset.y : offset.z) > 0.0 ? 1.0 : -1.0;
+    vec3 major = side * vec3(x, y, !x && !y);
+    vec3 s = x ? vec3(0.0, 0.0, -side) : vec3(y ? 1.0 : side, 0.0, 0.0);
+    vec3 t = y ? vec3(0.0, 0.0, side) : vec3(0.0, -1.0, 0.0);
+    uint face = (x ? 0u : y ? 2u : 4u) + (side > 0.0 ? 0u : 1u);
+    vec2 middle = 0.5 * light.shadowSize;
+    return ShadowProjection(vec4(middle.x * (s + major), 0.0), vec4(middle.y * (t + major), 0.0), vec4(major, 0.0),
+                            light.shadowLayer + face);
+}
+
+ShadowProjection projectionAt(LightParameters light, vec3 offset) {
+    if (light.kind == lightPoint) {
+        return cubeFace(light, offset);
+    }
+    return ShadowProjection(light.shadowX, light.shadowY, light.shadowW, light.shadowLayer);
+}
+
+ShadowPoint project(LightParameters light, Receiver receiver) {
+    vec3 offset = receiver.position - light.position.xyz;
+    vec3 size = abs(offset);
+    float w = light.kind == lightPoint ? max(size.x, max(size.y, size.z)) : dot(light.shadowW, vec4(offset, 1.0));
+    ShadowPoint point;
+    point.texelSize = light.shadowTexel * max(w, 0.0);
+    point.moved = parameters.normalOffset * point.texelSize;
+    point.offset = offset - receiver.normal * point.moved;
+    point.projection = projectionAt(light, point.offset);
+    vec4 inner = vec4(point.offset, 1.0);
+    point.w = dot(point.projection.w, inner);
+    point.texel = vec2(dot(point.projection.x, inner), dot(point.projection.y, inner)) / point.w;
+    point.inside = point.w > 0.0 && all(greaterThanEqual(point.texel, vec2(0.0))) &&
+                   all(lessThanEqual(point.texel, light.shadowSize));
+    return point;
+}
+
+// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
+// groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
+mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
+#define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
+#define ROW(index, row)                                                                                                \
+    vec4(TEXEL(index, columns.x, row), TEXEL(index, columns.y, row), TEXEL(index, columns.z, row),                     \
+         TEXEL(index, columns.w, row))
+#define TEXELS(index) mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w))
+#define FETCH(index)                                                                                                   \
+    for (bool here = map == index; here; here = false) {                                                               \
+        stored = TEXELS(index);                                                                                        \
+    }
+#define FETCH_GROUP(first)                                                                                             \
+    for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
+        FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
+    }
+    if (!severalShadowMaps) {
+        return TEXELS(0);
+    }
+    mat4 stored = mat4(0.0);
+    FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
+#undef FETCH_GROUP
+#undef FETCH
+#undef TEXELS
+#undef ROW
+#undef TEXEL
+    return stored;
+}
+
+// How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
+// are compared with the plane, not with the point, so that a slab is as thick under every tap.
+mat2x3 planeSteps(ShadowPoint point, vec3 normal) {
+    vec3 gradientX = point.projection.x.xyz - point.texel.x * point.projection.w.xyz; // of texel · w
+    vec3 gradientY = point.projection.y.xyz - point.texel.y * point.projection.w.xyz;
+    vec3 alongX = cross(gradientY, normal);
+    vec3 alongY = cross(normal, gradientX);
+    float determinant = dot(gradientX, alongX);
+    float longest = sqrt(max(dot(alongX, alongX), dot(alongY, alongY)));
+    float scale = min(point.w / abs(determinant), steepestPlane * point.texelSize / max(longest, 1e-20));
+    return mat2x3(alongX, alongY) * (scale * sign(determinant));
+}
+
+// Linear depth of the plane's points under 4x4 taps at x and y from its middle: constant + slope·y + square.
+struct PlaneDepths {
+    vec4 constant, slope; // per column
+    vec4 square;          // per row
+};
+
+// A distance from the light is expanded to second order: a tap is far closer to the middle than the middle is to the light.
+PlaneDepths planeDepths(LightParameters light, vec3 offset, mat2x3 steps, vec4 x, vec4 y) {
+    bool isDirectional = light.kind == lightDirectional;
+    vec3 direction = isDirectional ? light.direction.xyz : normalize(offset);
+    float depth = dot(offset, direction);
+    vec2 gradient = direction * steps;
+    float halfCurvature = isDirectional ? 0.0 : 0.5 / depth;
+    vec3 second = halfCurvature * vec3(dot(steps[0], steps[0]) - gradient.x * gradient.x,
+                                       2.0 * (dot(steps[0], steps[1]) - gradient.x * gradient.y),
+                                       dot(steps[1], steps[1]) - gradient.y * gradient.y);
+    return PlaneDepths(depth + x * (gradient.x + second.x * x), gradient.y + second.y * x, second.z * y * y);
+}
+
+// Texels of the 4 taps on an axis, and their weights.
+void taps(float coordinate, float last, out vec4 texels, out vec4 weights) {
+    const vec4 tap = vec4(-1.0, 0.0, 1.0, 2.0);
+    float spacing = max(0.5 * parameters.filterRadius, 0.5);
+    float base = floor(coordinate / spacing - 0.5);
+    float fraction = coordinate / spacing - 0.5 - base;
+    texels = clamp(floor((base + tap + 0.5) * spacing), 0.0, last);
+    weights = 0.5 - 0.25 * abs(tap - fraction);
+}
+
+// Whether the light that comes through has to be looked for in the picture. The thesis does not ask.
+bool mayCountTwice(vec3 transmittance) {
+    return any(greaterThan(transmittance, vec3(leastTwice))) && !hasFlag(flagThesisTransmittance);
+}
+
+// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way through what the normal offset cut off is added again. What is filtered is the
+// transmittance: light adds up, thickness does not.
+vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
+    vec4 columns, rows, columnWeights, rowWeights;
+    taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);
+    taps(point.texel.y, light.shadowSize.y - 1.0, rows, rowWeights);
+    mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
+    mat2x3 steps = planeSteps(point, receiver.normal);
+    vec4 x = columns + 0.5 - point.texel.x;
+    vec4 y = rows + 0.5 - point.texel.y;
+    PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
+    float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
+    float range = light.direction.w * view.mmPerUnit;
+    float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
+    mat4 thickness;
+    for (int i = 0; i < 4; ++i) {
+        vec4 depths = plane.constant + plane.slope * y[i];
+        thickness[i] = clamp(depths + (plane.square[i] + removed) - stored[i] * range, 0.0, most);
+    }
+    float mean = dot(thickness * rowWeights, columnWeights);
+    return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
+}
+
+// The pixel that shows a view-space position, mm.
+vec2 pixelOf(vec3 position) {
+    mat2 steps = mat2(stepX(position.z), stepY(position.z));
+    return inverse(steps) * (position.xy - view.rayBias * position.z - view.originBias);
+}
+
+// [0, 1] How surely the camera does not see the point where the light enters: 0 where the pixel there shows that point on
+// a side that the light reaches. Its light is in the irradiance that scatter gathers. `tolerance`: mm.
+float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolerance) {
+    vec3 entry = receiver.viewPosition + mat3(view.viewFromWorld) * (thickness * toLight);
+    ivec2 pixel = ivec2(floor(pixelOf(entry) + 0.5));
+    if (clipW(entry.z) <= 0.0 || !isInArea(pixel)) {
+        return 1.0;
+    }
+    float z = viewZ(pixel);
+    vec3 normal = texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias;
+    if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
+        return 1.0;
+    }
+    float distance = abs(dot((entry - viewPosition(pixel, z)) * mat3(view.viewFromWorld), normal));
+    return clamp(distance / (tolerance + length(stepX(z)) * sameSurfaceTexels) - 1.0, 0.0, 1.0);
+}
+
+// Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where none shines through.
+vec4 transmitLight(LightParameters light, Receiver receiver) {
+    Incidence incidence = incidenceAt(light, receiver.position);
+    float cosine = -dot(receiver.normal, incidence.toLight);
+    if (cosine <= 0.0 || !any(greaterThan(incidence.irradiance, vec3(0.0)))) {
+        return vec4(0.0, 0.0, 0.0, -1.0);
+    }
+    vec4 through = vec4(0.0, 0.0, 0.0, -1.0);
+    ShadowPoint point;
+    point.inside = false;
+    point.texelSize = 0.0;
+    if (light.shadowMap != noShadowMap) {
+        point = project(light, receiver);
+    }
+    for (bool inside = point.inside; inside; inside = false) { // software devices skip it where no pixel is inside
+        through = filteredTransmittance(light, receiver, point, cosine);
+    }
+    if (!point.inside && receiver.authored > 0.0) {
+        through = vec4(transmittance(receiver.material, receiver.authored), receiver.authored);
+    }
+    for (bool asks = mayCountTwice(through.rgb); asks; asks = false) {
+        float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w;
+        through.rgb *= hiddenShare(receiver, incidence.toLight, through.w, tolerance);
+    }
+    return vec4(through.rgb * incidence.irradiance * cosine, through.w);
+}
+
+void writeResult(ivec2 pixel, vec3 light, float thickness) {
+    imageStore(transmittedImage, pixel, vec4(light, 1.0));
+    if (hasFlag(flagThicknessOut)) {
+        imageStore(thicknessOutImage, pixel, vec4(thickness, 0.0, 0.0, 1.0));
+    }
+}
+
+void main() {
+    ivec2 local = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(local, view.areaExtent))) {
+        return;
+    }
+    ivec2 pixel = local + view.areaOffset;
+    uint id = texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u);
+    uint slot = id != 0u ? slots[id] : 0u; // most pixels then wait for their id alone
+    if (slot == 0u) {
+        writeResult(pixel, vec3(0.0), 0.0);
+        return;
+    }
+    float z = viewZ(pixel);
+    vec3 normal = normalize(texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias);
+    if (!isValidZ(z) || !isFinite(normal)) {
+        writeResult(pixel, vec3(0.0), 0.0);
+        return;
+    }
+    MaterialParameters material = materials[slot];
+    Receiver receiver;
+    receiver.viewPosition = viewPosition(pixel, z);
+    receiver.position = (view.worldFromView * vec4(receiver.viewPosition, 1.0)).xyz;
+    receiver.normal = normal;
+    receiver.material = slot;
+    receiver.authored = material.thickness;
+    if (hasFlag(flagThickness)) {
+        float authored = texelFetch(thicknessImage, pixel, 0).r;
+        receiver.authored = authored > 0.0 && isFinite(authored) ? authored : receiver.authored;
+    }
+    float translucency = material.translucency;
+    if (hasFlag(flagStrength)) {
+        translucency *= clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0);
+    }
+    vec3 light = vec3(0.0);
+    float thickness = 1e30;
+    uint lightCount = translucency > 0.0 || hasFlag(flagThicknessOut) ? view.lightCount : 0u;
+    for (uint i = 0u; i < lightCount; ++i) {
+        vec4 part = transmitLight(lights[i], receiver);
+        light += part.rgb;
+        thickness = part.w >= 0.0 ? min(thickness, part.w) : thickness;
+    }
+    writeResult(pixel, translucency * light, thickness < 1e30 ? thickness : 0.0);
+}

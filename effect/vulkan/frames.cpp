@@ -1,0 +1,109 @@
+// The ring of descriptor sets and uniform memory: one of each per call and frame in flight.
+#include "vulkan/context.hpp"
+
+#include "contract/validation.hpp"
+
+#include <algorithm>
+
+namespace nacre::effect {
+namespace {
+
+VkDeviceSize alignUp(VkDeviceSize size, VkDeviceSize alignment) {
+    return (size + alignment - 1) / alignment * alignment;
+}
+
+Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t recordCount) {
+    // Per record of either kind; the intermediates may be of either type.
+    const auto count = [recordCount](std::uint32_t perRecord) { return recordCount * perRecord; };
+    constexpr auto intermediateBindings = static_cast<std::uint32_t>(intermediateCount);
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count(2)},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count(5 + 2 * intermediateBindings)},
+        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count(11 + maxShadowMaps)},
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count(3 + 2 * intermediateBindings)},
+    };
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.maxSets = count(2);
+    info.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
+    info.pPoolSizes = sizes;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(device.vk.CreateDescriptorPool(device.handle, &info, device.allocator, &pool), "vkCreateDescriptorPool");
+    return {device, pool, device.vk.DestroyDescriptorPool};
+}
+
+/// Bytes of the parts of a record.
+struct RecordBytes {
+    VkDeviceSize scatter, transmit, lights;
+};
+
+RecordBytes recordBytes(const Context& context) {
+    const VkPhysicalDeviceLimits& limits = context.device.limits;
+    const VkDeviceSize alignment =
+        std::max({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment, VkDeviceSize{16}});
+    return {alignUp(sizeof(ScatterParameters), alignment), alignUp(sizeof(TransmitParameters), alignment),
+            alignUp(sizeof(LightParameters) * context.maxLights, alignment)};
+}
+
+} // namespace
+
+Buffer createUniforms(const Context& context, std::uint32_t frameCount, std::uint32_t recordsPerFrame) {
+    const RecordBytes bytes = recordBytes(context);
+    return createBuffer(context.device,
+                        VkDeviceSize{frameCount} * recordsPerFrame * (bytes.scatter + bytes.transmit + bytes.lights),
+                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre parameters");
+}
+
+void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t recordsPerFrame) {
+    const Device& device = context.device;
+    const RecordBytes bytes = recordBytes(context);
+    context.pool = createPool(device, frameCount * recordsPerFrame);
+
+    VkDeviceSize offset = 0;
+    const auto place = [&](VkDescriptorBufferInfo& info, std::byte*& mapped, VkDeviceSize size) {
+        info = {context.uniforms.buffer.get(), offset, size};
+        mapped = context.uniforms.mapped + offset;
+        offset += size;
+    };
+    const auto allocateSet = [&](const Programs& programs) {
+        VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+        const VkDescriptorSetLayout layout = programs.setLayout.get();
+        info.descriptorPool = context.pool.get();
+        info.descriptorSetCount = 1;
+        info.pSetLayouts = &layout;
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        check(device.vk.AllocateDescriptorSets(device.handle, &info, &set), "vkAllocateDescriptorSets");
+        return set;
+    };
+    context.frames.resize(frameCount);
+    for (Frame& frame : context.frames) {
+        frame.scatter.records.resize(recordsPerFrame);
+        for (Record& record : frame.scatter.records) {
+            record.set = allocateSet(context.scatter);
+            place(record.parameters, record.mappedParameters, bytes.scatter);
+        }
+        frame.transmit.records.resize(recordsPerFrame);
+        for (Record& record : frame.transmit.records) {
+            record.set = allocateSet(context.transmit);
+            place(record.parameters, record.mappedParameters, bytes.transmit);
+            place(record.lights, record.mappedLights, bytes.lights);
+        }
+    }
+}
+
+Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info) {
+    if (frame >= context.frames.size()) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", the context has ", context.frames.size(),
+             " frames in flight");
+    }
+    if (frame != context.frame) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::frame is ", frame, ", not the one last given to nacreBeginFrame");
+    }
+    Records& records = context.frames[frame].*kind;
+    if (records.used == records.records.size()) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", which already has its ", records.used,
+             " records (NacreContextInfo::recordsPerFrame)");
+    }
+    return records.records[records.used];
+}
+
+} // namespace nacre::effect

@@ -1,0 +1,135 @@
+// Set layouts, pipelines and intermediates, all of which follow from the pass table.
+#include "vulkan/bindings.hpp"
+#include "vulkan/context.hpp"
+
+namespace nacre::effect {
+namespace {
+
+void createLayout(Context& context, Programs& programs, CallKind kind) {
+    std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
+    for (const NacreBinding& binding : bindingsOf(kind, programs.intermediates, context.maxExtent)) {
+        layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
+    const Device& device = context.device;
+    VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    setInfo.bindingCount = static_cast<std::uint32_t>(layoutBindings.size());
+    setInfo.pBindings = layoutBindings.data();
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
+    check(device.vk.CreateDescriptorSetLayout(device.handle, &setInfo, device.allocator, &setLayout),
+          "vkCreateDescriptorSetLayout");
+    programs.setLayout = {device, setLayout, device.vk.DestroyDescriptorSetLayout};
+
+    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layoutInfo.setLayoutCount = 1;
+    layoutInfo.pSetLayouts = &setLayout;
+    const VkPushConstantRange materialId{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(std::uint32_t)};
+    layoutInfo.pushConstantRangeCount = 1;
+    layoutInfo.pPushConstantRanges = &materialId;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(device.vk.CreatePipelineLayout(device.handle, &layoutInfo, device.allocator, &layout),
+          "vkCreatePipelineLayout");
+    programs.layout = {device, layout, device.vk.DestroyPipelineLayout};
+}
+
+} // namespace
+
+Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache,
+                                 const VkSpecializationInfo* constants) {
+    VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    moduleInfo.codeSize = pass.spirv.size_bytes();
+    moduleInfo.pCode = pass.spirv.data();
+    VkShaderModule handle = VK_NULL_HANDLE;
+    check(device.vk.CreateShaderModule(device.handle, &moduleInfo, device.allocator, &handle), "vkCreateShaderModule");
+    const Owned<VkShaderModule> module{device, handle, device.vk.DestroyShaderModule};
+
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = handle;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = constants;
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    check(device.vk.CreateComputePipelines(device.handle, cache, 1, &info, device.allocator, &pipeline),
+          "vkCreateComputePipelines");
+    Owned<VkPipeline> owned{device, pipeline, device.vk.DestroyPipeline};
+    nameObject(device, VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), pass.name);
+    return owned;
+}
+
+namespace {
+
+PassPipelines createVariants(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache) {
+    PassPipelines pipelines;
+    for (Variant variant = 0; variant < variantCount; ++variant) {
+        if ((variant & ~variantsOf(pass)) != 0) {
+            continue;
+        }
+        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under these ids.
+        const VkBool32 values[] = {variant & 1u, variant >> 1 & 1u};
+        const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}};
+        const VkSpecializationInfo constants{2, entries, sizeof(values), values};
+        pipelines[variant] = createPipeline(device, layout, pass, cache, variantsOf(pass) != 0 ? &constants : nullptr);
+    }
+    return pipelines;
+}
+
+} // namespace
+
+void createPrograms(Context& context, VkPipelineCache cache) {
+    createLayout(context, context.scatter, CallKind::Scatter);
+    createLayout(context, context.transmit, CallKind::Transmit);
+    for (std::size_t i = 0; i < techniqueCount; ++i) {
+        if (!context.enabled[i]) {
+            continue;
+        }
+        const Programs& programs = i == transmitIndex ? context.transmit : context.scatter;
+        const VkPipelineLayout layout = programs.layout.get();
+        for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
+            for (Pass pass : part) {
+                pass.spirv = context.shaderFloat16 && !pass.halfSpirv.empty() ? pass.halfSpirv : pass.spirv;
+                context.pipelines[i].push_back(createVariants(context.device, layout, pass, cache));
+            }
+        }
+    }
+}
+
+IntermediateResources createIntermediates(const Context& context, VkExtent2D extent) {
+    IntermediateResources resources;
+    const IntermediateSet used = context.scatter.intermediates | context.transmit.intermediates;
+    for (std::size_t i = 0; i < intermediateCount; ++i) {
+        const IntermediateInfo& info = intermediates[i];
+        if (!(used >> i & 1u)) {
+            continue;
+        }
+        if (info.format != VK_FORMAT_UNDEFINED) {
+            resources[i].image = createImage(context.device, info.extent(extent), info.format, info.array, info.name);
+            continue;
+        }
+        const VkDeviceSize bytes = info.bytes(extent);
+        if (bytes > context.device.limits.maxStorageBufferRange) {
+            fail(NACRE_ERROR_LIMIT_EXCEEDED, "maxExtent is ", extent.width, "x", extent.height, ": ", info.name,
+                 " would take ", bytes, " bytes, the device's maxStorageBufferRange is ",
+                 context.device.limits.maxStorageBufferRange,
+                 "; leave its technique out of "
+                 "NacreContextInfo::techniques or lower maxExtent");
+        }
+        resources[i].buffer = createBuffer(
+            context.device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, info.name);
+    }
+    return resources;
+}
+
+MemoryLayout layOut(const Context& context, IntermediateResources& resources) {
+    MemoryLayout layout(context.device);
+    for (IntermediateResource& resource : resources) {
+        if (resource.image.image.get() != VK_NULL_HANDLE) {
+            layout.add(resource.image);
+        } else if (resource.buffer.buffer.get() != VK_NULL_HANDLE) {
+            layout.add(resource.buffer);
+        }
+    }
+    return layout;
+}
+
+} // namespace nacre::effect
