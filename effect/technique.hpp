@@ -1,6 +1,6 @@
-// What the effect is made of, as data: intermediates, passes and techniques. Set layouts, allocations, barriers,
-// labels, timestamps and costs follow from these tables. A new technique is its shaders, one .cpp that defines a
-// Technique, its rows in `intermediates` and its name in `scatterTechniques`.
+// What the effect is made of, as data: techniques, their passes and what lies between these. Set layouts, allocations,
+// barriers, labels, timestamps and costs follow from this. A new technique is a folder: its shaders, and one .cpp that
+// defines a Technique, which stands in the table of techniques.cpp.
 #pragma once
 
 #include "interface/blocks.h"
@@ -13,41 +13,38 @@
 
 namespace nacre::effect {
 
-/// Images and buffers between passes, in the order of the intermediate… constants of blocks.h.
-enum class Intermediate : std::uint32_t {
-    Rows = intermediateRows,
-    Pixels = intermediatePixels,
-    NoShadowMap = intermediateNoShadowMap,
-    BankRaw = intermediateBankRaw,
-    BankBlurred = intermediateBankBlurred,
-    BankSurfaces = intermediateBankSurfaces,
-    BankAreas = intermediateBankAreas,
-    BankTiles = intermediateBankTiles,
-    BankMaterials = intermediateBankMaterials,
-    BankSeconds = intermediateBankSeconds,
-    Count
-};
-inline constexpr std::size_t intermediateCount = static_cast<std::size_t>(Intermediate::Count);
+/// Images and buffers between passes have numbers, the intermediate… constants of the headers of blocks; they are bound
+/// from bindingIntermediates to 31.
+inline constexpr std::uint32_t maxIntermediates = 32 - bindingIntermediates;
 
 /// A set of intermediates, one bit each.
 using IntermediateSet = std::uint32_t;
-constexpr IntermediateSet bit(Intermediate intermediate) {
-    return 1u << static_cast<std::uint32_t>(intermediate);
+constexpr IntermediateSet bit(std::uint32_t intermediate) {
+    return 1u << intermediate;
 }
 
 /// An intermediate: a storage image of `format` and `extent`, or, with VK_FORMAT_UNDEFINED, a storage buffer of
 /// `bytes`.
-struct IntermediateInfo {
+struct Intermediate {
+    std::uint32_t number;
     const char* name;
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D (*extent)(VkExtent2D maxExtent) = nullptr;
     VkDeviceSize (*bytes)(VkExtent2D maxExtent) = nullptr;
     bool array = false; ///< the view is a 2D array view
 };
-extern const std::array<IntermediateInfo, intermediateCount> intermediates;
+
+/// Light after a pass over rows, of every technique with such a pass.
+inline constexpr Intermediate rowsIntermediate{.number = intermediateRows,
+                                               .name = "nacre separable rows",
+                                               .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                               .extent = [](VkExtent2D extent) { return extent; }};
 
 /// One compute dispatch.
 struct Pass {
+    static constexpr std::uint32_t notIndirect = ~0u;
+    constexpr bool isIndirect() const { return indirect != notIndirect; }
+
     const char* name; ///< debug label and timestamp name
     const char* file; ///< what nacre_shader calls it
     std::span<const std::uint32_t> spirv;
@@ -58,8 +55,8 @@ struct Pass {
     IntermediateSet writes = 0;
     /// Workgroups for a render area, in px.
     VkExtent3D (*grid)(VkExtent2D area) = nullptr;
-    /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this buffer; Count = not indirect.
-    Intermediate indirect = Intermediate::Count;
+    /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this intermediate.
+    std::uint32_t indirect = notIndirect;
     VkDeviceSize indirectOffset = 0;
     /// Whether it has the constant separateMaterials, true for frames where some materials do not exchange light with
     /// some others: asking costs nothing where no one does.
@@ -83,16 +80,6 @@ constexpr Variant variantsOf(const Pass& pass) {
            (pass.asksAlbedoOrStrength ? albedoOrStrength : 0);
 }
 
-/// Sizes of the bank's buffers (bank/bank_technique.cpp).
-VkDeviceSize bankRawBytes(VkExtent2D maxExtent);
-VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent);
-VkDeviceSize bankAreaBytes(VkExtent2D maxExtent);
-VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent);
-VkDeviceSize bankSecondBytes(VkExtent2D maxExtent);
-VkDeviceSize bankTileBytes(VkExtent2D maxExtent);
-/// Fills ScatterParameters::bankLevels for a render area (bank/bank_technique.cpp).
-void setBankLevels(ScatterParameters& parameters, VkExtent2D area);
-
 /// A grid of one workgroup per width × height px.
 template <std::uint32_t width, std::uint32_t height> VkExtent3D tiles(VkExtent2D area) {
     return {(area.width + width - 1) / width, (area.height + height - 1) / height, 1};
@@ -106,9 +93,11 @@ inline vec4 toVec4(const Rgb& rgb, double w) {
     return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]), static_cast<float>(w)};
 }
 
-/// A way to scatter, or transmit: its passes in order, and the table it needs of every material.
+/// A way to scatter, or transmit: its passes in order, what lies between them, and the table it needs of every
+/// material.
 struct Technique {
     const char* name;
+    std::span<const Intermediate> intermediates = {};
     std::span<const Pass> passes;
     std::size_t tableBytes; ///< per material, a multiple of 16
     /// Fills one material's table (tableBytes, zeroed).
@@ -117,16 +106,12 @@ struct Technique {
     /// as one, under materialPassesName.
     std::span<const Pass> materialPasses = {};
     const char* materialPassesName = nullptr;
+    /// Fills its part of a call's parameters; throws a Failure that names the field. Null: it has none.
+    void (*setParameters)(const NacreScatterInfo& info, VkExtent2D area, ScatterParameters& parameters) = nullptr;
 
     IntermediateSet uses() const;
 };
 
-extern const Technique separableTechnique;
-extern const Technique bruteTechnique;
-extern const Technique bankTechnique;
-extern const Technique burleyTechnique;
-extern const Technique thesisTechnique;
-extern const Technique bankSurfacesTechnique;
 extern const Technique transmitTechnique;
 
 /// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
@@ -134,6 +119,10 @@ inline constexpr std::size_t scatterTechniqueCount = 6;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;
+
+/// Of all techniques, by number; a number that no technique has lacks a name.
+const std::array<Intermediate, maxIntermediates>& intermediates();
+
 inline constexpr NacreTechnique defaultTechnique = NACRE_TECHNIQUE_BANK;
 
 } // namespace nacre::effect

@@ -2,27 +2,12 @@
 
 namespace nacre::effect {
 
-const std::array<IntermediateInfo, intermediateCount> intermediates{{
-    {.name = "nacre separable rows",
-     .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-     .extent = [](VkExtent2D extent) { return extent; }},
-    {.name = "nacre brute pixels",
-     .bytes = [](VkExtent2D extent) { return VkDeviceSize{sizeof(BrutePixel)} * extent.width * extent.height; }},
-    {.name = "nacre no shadow map",
-     .format = VK_FORMAT_R32_SFLOAT,
-     .extent =
-         [](VkExtent2D) {
-             return VkExtent2D{1, 1};
-         },
-     .array = true},
-    {.name = "nacre bank raw pyramid", .bytes = bankRawBytes},
-    {.name = "nacre bank blurred pyramid", .bytes = bankBlurredBytes},
-    {.name = "nacre bank borrowed surfaces", .bytes = bankBlurredBytes},
-    {.name = "nacre bank areas", .bytes = bankAreaBytes},
-    {.name = "nacre bank tiles", .bytes = bankTileBytes},
-    {.name = "nacre bank materials", .bytes = bankMaterialBytes},
-    {.name = "nacre bank second surfaces", .bytes = bankSecondBytes},
-}};
+extern const Technique separableTechnique;
+extern const Technique bruteTechnique;
+extern const Technique bankTechnique;
+extern const Technique burleyTechnique;
+extern const Technique thesisTechnique;
+extern const Technique bankSurfacesTechnique;
 
 const std::array<const Technique*, techniqueCount> techniques{
     &separableTechnique, &bruteTechnique,        &bankTechnique,    &burleyTechnique,
@@ -36,6 +21,19 @@ IntermediateSet Technique::uses() const {
         }
     }
     return set;
+}
+
+const std::array<Intermediate, maxIntermediates>& intermediates() {
+    static const auto all = [] {
+        std::array<Intermediate, maxIntermediates> result{};
+        for (const Technique* technique : techniques) {
+            for (const Intermediate& one : technique->intermediates) {
+                result[one.number] = one;
+            }
+        }
+        return result;
+    }();
+    return all;
 }
 
 } // namespace nacre::effect

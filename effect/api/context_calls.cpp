@@ -216,7 +216,7 @@ NacreCost costOf(const Context& context, std::size_t technique) {
                          cost.dispatchesPerMaterial * context.materials->setCount();
     cost.passCount = static_cast<std::uint32_t>(names.size());
     cost.passNames = names.data();
-    for (std::size_t i = 0; i < intermediateCount; ++i) {
+    for (std::size_t i = 0; i < maxIntermediates; ++i) {
         if (techniques[technique]->uses() >> i & 1u) {
             cost.intermediateBytes += context.intermediates[i].bytes();
         }

@@ -2,6 +2,8 @@
 #include "contract/material_check.hpp"
 #include "contract/parameters.hpp"
 #include "contract/validation.hpp"
+#include "transmit/light_parameters.hpp"
+#include "transmit/transmit_blocks.h"
 #include "vulkan/bindings.hpp"
 #include "vulkan/context.hpp"
 
@@ -76,7 +78,6 @@ void checkOptional(std::uint32_t images, std::uint32_t known) {
 std::uint32_t bindingBits(IntermediateSet set) {
     return set << bindingIntermediates;
 }
-static_assert(bindingIntermediates + intermediateCount <= 32);
 
 NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     NacrePass result{};
@@ -93,11 +94,11 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.asksMaterials = pass.asksMaterials;
     result.asksShadowMaps = pass.asksShadowMaps;
     result.asksAlbedoOrStrength = pass.asksAlbedoOrStrength;
-    if (pass.indirect == Intermediate::Count) {
-        result.groups = pass.grid(area);
-    } else {
-        result.indirectBinding = bindingIntermediates + static_cast<std::uint32_t>(pass.indirect);
+    if (pass.isIndirect()) {
+        result.indirectBinding = bindingIntermediates + pass.indirect;
         result.indirectOffset = pass.indirectOffset;
+    } else {
+        result.groups = pass.grid(area);
     }
     return result;
 }

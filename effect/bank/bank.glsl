@@ -1,5 +1,6 @@
 // What the three passes of `bank` share: the pyramid's texels, their packing and layout, depth weights.
 #include "interface/scatter.glsl"
+#include "bank_blocks.h"
 #include "bank_constants.h"
 
 // How a pass uses the buffers between passes; pass C says that it only reads them.
@@ -9,13 +10,13 @@
 
 layout(constant_id = 0) const bool separateMaterials = false; // some do not exchange light with some others
 
-layout(set = 0, binding = bindingIntermediates + intermediateBankRaw, std430) BANK_ACCESS buffer BankRaw {
+layout(set = 0, binding = bindingIntermediates + intermediateBankReduced, std430) BANK_ACCESS buffer BankRaw {
     uvec4 rawTexels[]; // levels 1 … 6; what is not written of level 1 lies in tiles without tileOccupied
 };
 layout(set = 0, binding = bindingIntermediates + intermediateBankBlurred, std430) BANK_ACCESS buffer BankBlurred {
     uvec2 blurredLights[]; // levels 2 … 6 (blurredIndex): light and mass, with a sign where the texel is not plain
 };
-layout(set = 0, binding = bindingIntermediates + intermediateBankSurfaces, std430) BANK_ACCESS buffer BankSurfaces {
+layout(set = 0, binding = bindingIntermediates + intermediateBankBorrowed, std430) BANK_ACCESS buffer BankSurfaces {
     // Of the same texels: depth and material that an empty texel's kernel stands on. A raw texel that is not empty has both.
     uvec2 borrowedSurfaces[];
 };

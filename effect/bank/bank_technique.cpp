@@ -1,5 +1,6 @@
 // Technique `bank`: one pyramid of blurs for all materials; each pixel takes its material's mixture of them
 // (docs/scatter.md).
+#include "bank/bank_blocks.h"
 #include "technique.hpp"
 
 #include "nacre/bank.hpp"
@@ -135,31 +136,79 @@ void buildTable(const Material& material, const Profile& profile, std::span<std:
     std::memcpy(bytes.data(), words.data(), sizeof(words));
 }
 
-constexpr IntermediateSet raw = bit(Intermediate::BankRaw);
-constexpr IntermediateSet blurred = bit(Intermediate::BankBlurred) | bit(Intermediate::BankSurfaces);
-constexpr IntermediateSet pixelMaterials = bit(Intermediate::BankMaterials);
-constexpr IntermediateSet areas = bit(Intermediate::BankAreas);
-constexpr IntermediateSet seconds = bit(Intermediate::BankSeconds);
-constexpr IntermediateSet tiles = bit(Intermediate::BankTiles);
+VkDeviceSize reducedBytes(VkExtent2D maxExtent) {
+    return sizeof(uvec4) * texelCount(maxExtent);
+}
+
+// One for each texel but those of level 1.
+VkDeviceSize blurredBytes(VkExtent2D maxExtent) {
+    return sizeof(uvec2) * (texelCount(maxExtent) - fineTexelCount(maxExtent));
+}
+
+// One word for each texel of level 1.
+VkDeviceSize areaBytes(VkExtent2D maxExtent) {
+    return sizeof(std::uint32_t) * fineTexelCount(maxExtent);
+}
+
+// Of the levels that keep one, finest first; then again of those that are blurred.
+VkDeviceSize secondBytes(VkExtent2D maxExtent) {
+    VkDeviceSize texels = 0;
+    for (int level = 1; level <= constants::bankSecondLevels; ++level) {
+        const VkExtent2D extent = levelExtent(maxExtent, level);
+        texels += VkDeviceSize{level > 1 ? 2u : 1u} * extent.width * extent.height;
+    }
+    return sizeof(uvec4) * texels;
+}
+
+VkDeviceSize pixelMaterialBytes(VkExtent2D maxExtent) {
+    return sizeof(uvec2) * fineTexelCount(maxExtent);
+}
+
+// The dispatches, then a word for every tile, of which a cell has four, and two for every region that may be on a list:
+// two smooth ones a cell, or eight edge regions.
+VkDeviceSize tileBytes(VkExtent2D maxExtent) {
+    const VkExtent2D cells = cellCount(maxExtent);
+    return 2 * sizeof(BankDispatch) +
+           VkDeviceSize{sizeof(std::uint32_t)} * (4 + 2 * (2 + 8)) * cells.width * cells.height;
+}
+
+constexpr Intermediate bankIntermediates[] = {
+    {.number = intermediateBankReduced, .name = "nacre bank reduced pyramid", .bytes = reducedBytes},
+    {.number = intermediateBankBlurred, .name = "nacre bank blurred pyramid", .bytes = blurredBytes},
+    {.number = intermediateBankBorrowed, .name = "nacre bank borrowed surfaces", .bytes = blurredBytes},
+    {.number = intermediateBankAreas, .name = "nacre bank areas", .bytes = areaBytes},
+    {.number = intermediateBankTiles, .name = "nacre bank tiles", .bytes = tileBytes},
+    {.number = intermediateBankMaterials, .name = "nacre bank materials", .bytes = pixelMaterialBytes},
+};
+constexpr Intermediate secondsIntermediate[] = {
+    {.number = intermediateBankSeconds, .name = "nacre bank second surfaces", .bytes = secondBytes},
+};
+
+constexpr IntermediateSet reduced = bit(intermediateBankReduced);
+constexpr IntermediateSet blurred = bit(intermediateBankBlurred) | bit(intermediateBankBorrowed);
+constexpr IntermediateSet pixelMaterials = bit(intermediateBankMaterials);
+constexpr IntermediateSet areas = bit(intermediateBankAreas);
+constexpr IntermediateSet seconds = bit(intermediateBankSeconds);
+constexpr IntermediateSet tiles = bit(intermediateBankTiles);
 
 constexpr Pass reducePass{.name = "nacre bank reduce",
                           .file = "bank_reduce",
                           .spirv = bank_reduce_spv,
-                          .writes = raw | pixelMaterials | areas | tiles,
+                          .writes = reduced | pixelMaterials | areas | tiles,
                           .grid = reduceGrid,
                           .asksMaterials = true};
 constexpr Pass blurPass{.name = "nacre bank blur",
                         .file = "bank_blur",
                         .spirv = bank_blur_spv,
-                        .reads = raw,
-                        .writes = raw | blurred | tiles,
+                        .reads = reduced,
+                        .writes = reduced | blurred | tiles,
                         .grid = blurGrid,
                         .asksMaterials = true};
 constexpr Pass edgePass{.name = "nacre bank combine edge",
                         .file = "bank_combine_edge",
                         .spirv = bank_combine_edge_spv,
-                        .reads = raw | blurred | pixelMaterials | areas | tiles,
-                        .indirect = Intermediate::BankTiles,
+                        .reads = reduced | blurred | pixelMaterials | areas | tiles,
+                        .indirect = intermediateBankTiles,
                         .indirectOffset = sizeof(BankDispatch),
                         .asksMaterials = true,
                         .asksAlbedoOrStrength = true};
@@ -168,8 +217,8 @@ constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .spirv = bank_combine_smooth_spv,
                           .halfFile = "bank_combine_smooth_half",
                           .halfSpirv = bank_combine_smooth_half_spv,
-                          .reads = raw | blurred | pixelMaterials | tiles,
-                          .indirect = Intermediate::BankTiles,
+                          .reads = reduced | blurred | pixelMaterials | tiles,
+                          .indirect = intermediateBankTiles,
                           .indirectOffset = 0,
                           .asksAlbedoOrStrength = true};
 constexpr Pass passes[] = {reducePass, blurPass, edgePass, smoothPass};
@@ -179,7 +228,7 @@ constexpr Pass withSeconds(Pass pass, const char* file, std::span<const std::uin
     pass.file = file;
     pass.spirv = spirv;
     pass.reads |= seconds;
-    pass.writes |= pass.indirect == Intermediate::Count ? seconds : 0;
+    pass.writes |= pass.isIndirect() ? 0 : seconds;
     return pass;
 }
 
@@ -188,46 +237,8 @@ constexpr Pass surfacesPasses[] = {withSeconds(reducePass, "bank_surfaces_reduce
                                    withSeconds(edgePass, "bank_surfaces_combine_edge", bank_surfaces_combine_edge_spv),
                                    smoothPass};
 
-} // namespace
-
-VkDeviceSize bankRawBytes(VkExtent2D maxExtent) {
-    return sizeof(uvec4) * texelCount(maxExtent);
-}
-
-// One for each texel but those of level 1.
-VkDeviceSize bankBlurredBytes(VkExtent2D maxExtent) {
-    return sizeof(uvec2) * (texelCount(maxExtent) - fineTexelCount(maxExtent));
-}
-
-// One word for each texel of level 1.
-VkDeviceSize bankAreaBytes(VkExtent2D maxExtent) {
-    return sizeof(std::uint32_t) * fineTexelCount(maxExtent);
-}
-
-// Of the levels that keep one, finest first; then again of those that are blurred.
-VkDeviceSize bankSecondBytes(VkExtent2D maxExtent) {
-    VkDeviceSize texels = 0;
-    for (int level = 1; level <= constants::bankSecondLevels; ++level) {
-        const VkExtent2D extent = levelExtent(maxExtent, level);
-        texels += VkDeviceSize{level > 1 ? 2u : 1u} * extent.width * extent.height;
-    }
-    return sizeof(uvec4) * texels;
-}
-
-VkDeviceSize bankMaterialBytes(VkExtent2D maxExtent) {
-    return sizeof(uvec2) * fineTexelCount(maxExtent);
-}
-
-// The dispatches, then a word for every tile, of which a cell has four, and two for every region that may be on a list:
-// two smooth ones a cell, or eight edge regions.
-VkDeviceSize bankTileBytes(VkExtent2D maxExtent) {
-    const VkExtent2D cells = cellCount(maxExtent);
-    return 2 * sizeof(BankDispatch) +
-           VkDeviceSize{sizeof(std::uint32_t)} * (4 + 2 * (2 + 8)) * cells.width * cells.height;
-}
-
 // The levels lie one after the other, finest first; their blocks are blurred coarsest first.
-void setBankLevels(ScatterParameters& parameters, VkExtent2D area) {
+void setParameters(const NacreScatterInfo&, VkExtent2D area, ScatterParameters& parameters) {
     std::int32_t texels = 0;
     for (int level = 1; level <= bankLevels; ++level) {
         const VkExtent2D extent = levelExtent(area, level);
@@ -243,7 +254,19 @@ void setBankLevels(ScatterParameters& parameters, VkExtent2D area) {
     }
 }
 
-const Technique bankTechnique{"bank", passes, tableBytes, buildTable};
-const Technique bankSurfacesTechnique{"bank-surfaces", surfacesPasses, tableBytes, buildTable};
+} // namespace
+
+extern const Technique bankTechnique{.name = "bank",
+                                     .intermediates = bankIntermediates,
+                                     .passes = passes,
+                                     .tableBytes = tableBytes,
+                                     .buildTable = buildTable,
+                                     .setParameters = setParameters};
+// Its other intermediates are those of `bank`.
+extern const Technique bankSurfacesTechnique{.name = "bank-surfaces",
+                                             .intermediates = secondsIntermediate,
+                                             .passes = surfacesPasses,
+                                             .tableBytes = tableBytes,
+                                             .buildTable = buildTable};
 
 } // namespace nacre::effect

@@ -1,4 +1,6 @@
 // Technique `burley`: importance samples of a disc, one pass. Closed forms for Burley's profile, tables for layers.
+#include "burley/burley_blocks.h"
+#include "contract/failure.hpp"
 #include "technique.hpp"
 
 #include "nacre/burley.hpp"
@@ -41,11 +43,26 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
     std::memcpy(bytes.data(), &table, sizeof(table));
 }
 
+void setParameters(const NacreScatterInfo& info, VkExtent2D, ScatterParameters& parameters) {
+    constexpr std::uint32_t defaultBudget = 64;
+    constexpr std::uint32_t largestBudget = 256;
+    if (info.burleySampleBudget > largestBudget) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::burleySampleBudget is ", info.burleySampleBudget,
+             ", must be in [1, ", largestBudget, "]");
+    }
+    parameters.burleySampleBudget = info.burleySampleBudget == 0 ? defaultBudget : info.burleySampleBudget;
+    parameters.burleyRotation = info.burleyRotation;
+}
+
 constexpr Pass passes[] = {
     {.name = "nacre burley", .file = "scatter_burley", .spirv = scatter_burley_spv, .grid = tiles<8, 8>}};
 
 } // namespace
 
-const Technique burleyTechnique{"burley", passes, sizeof(BurleyTable), buildTable};
+extern const Technique burleyTechnique{.name = "burley",
+                                       .passes = passes,
+                                       .tableBytes = sizeof(BurleyTable),
+                                       .buildTable = buildTable,
+                                       .setParameters = setParameters};
 
 } // namespace nacre::effect

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface/scatter.glsl"
 #include "interface/tangent_plane.glsl"
+#include "burley_blocks.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {

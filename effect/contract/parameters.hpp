@@ -4,8 +4,7 @@
 
 #include "interface/blocks.h"
 #include "nacre/nacre.h"
-
-#include <cstddef>
+#include "transmit/transmit_blocks.h"
 
 namespace nacre::effect {
 
@@ -17,13 +16,5 @@ ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given
                                     bool albedoBefore);
 /// Normals are always given.
 TransmitParameters transmitParameters(const NacreTransmitInfo& info, ImageSet given, const VkRect2D& area);
-
-/// Checks lights and the number of shadow maps. A light's map must be one of them.
-void checkLights(const NacreTransmitInfo& info);
-/// Fills lightCount LightParameters of lights that were checked.
-void fillLights(const NacreTransmitInfo& info, std::byte* to);
-
-/// The thesis's radius or, for 0, the default; `field` is whose it is.
-std::uint32_t thesisRadius(std::uint32_t radius, const char* field);
 
 } // namespace nacre::effect

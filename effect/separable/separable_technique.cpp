@@ -1,4 +1,5 @@
 // Technique `separable`: two passes for all materials with pre-integrated line-spread kernels (Jimenez et al. 2015).
+#include "separable/separable_blocks.h"
 #include "technique.hpp"
 
 #include "scatter_separable_columns.spv.h"
@@ -22,21 +23,27 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> ta
     }
 }
 
+constexpr Intermediate separableIntermediates[] = {rowsIntermediate};
+
 constexpr Pass passes[] = {
     {.name = "nacre separable rows",
      .file = "scatter_separable_rows",
      .spirv = scatter_separable_rows_spv,
-     .writes = bit(Intermediate::Rows),
+     .writes = bit(intermediateRows),
      .grid = tiles<8, 8>},
     {.name = "nacre separable columns",
      .file = "scatter_separable_columns",
      .spirv = scatter_separable_columns_spv,
-     .reads = bit(Intermediate::Rows),
+     .reads = bit(intermediateRows),
      .grid = tiles<8, 8>},
 };
 
 } // namespace
 
-const Technique separableTechnique{"separable", passes, lineSpreadEntries * sizeof(vec4), buildTable};
+extern const Technique separableTechnique{.name = "separable",
+                                          .intermediates = separableIntermediates,
+                                          .passes = passes,
+                                          .tableBytes = lineSpreadEntries * sizeof(vec4),
+                                          .buildTable = buildTable};
 
 } // namespace nacre::effect

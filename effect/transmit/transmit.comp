@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "interface/blocks.h"
+#include "transmit_blocks.h"
 
 layout(constant_id = 0) const bool severalShadowMaps = false; // else all lights have the first
 

@@ -1,6 +1,7 @@
 #include "vulkan/bindings.hpp"
 
 #include "contract/validation.hpp"
+#include "transmit/transmit_blocks.h"
 
 namespace nacre::effect {
 namespace {
@@ -34,7 +35,7 @@ NacreBinding image(NacreImageSlot slot, std::uint32_t number) {
 }
 
 NacreBinding intermediate(std::uint32_t index, VkExtent2D maxExtent) {
-    const IntermediateInfo& info = intermediates[index];
+    const Intermediate& info = intermediates()[index];
     const bool isBuffer = info.format == VK_FORMAT_UNDEFINED;
     NacreBinding result = binding(info.name, bindingIntermediates + index,
                                   isBuffer ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
@@ -76,7 +77,7 @@ std::vector<NacreBinding> bindingsOf(CallKind kind, IntermediateSet used, VkExte
         bindings.push_back(image(NACRE_IMAGE_TRANSMITTED, bindingTransmitted));
         bindings.push_back(image(NACRE_IMAGE_THICKNESS_OUT, bindingThicknessOut));
     }
-    for (std::uint32_t i = 0; i < intermediateCount; ++i) {
+    for (std::uint32_t i = 0; i < maxIntermediates; ++i) {
         if (used >> i & 1u) {
             bindings.push_back(intermediate(i, maxExtent));
         }

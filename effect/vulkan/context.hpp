@@ -40,15 +40,15 @@ struct Programs {
     IntermediateSet intermediates = 0;
 };
 
-/// The image or buffer of an Intermediate; both empty when no enabled technique uses it.
+/// The image or buffer of an intermediate; both empty when no enabled technique uses it.
 struct IntermediateResource {
     Image image;
     Buffer buffer;
     VkDeviceSize bytes() const { return image.requirements.size + buffer.requirements.size; }
 };
 
-/// One for every Intermediate.
-using IntermediateResources = std::array<IntermediateResource, intermediateCount>;
+/// By the number of the intermediate.
+using IntermediateResources = std::array<IntermediateResource, maxIntermediates>;
 
 /// A pass's pipelines by Variant; null where the pass lacks one of the constants.
 using PassPipelines = std::array<Owned<VkPipeline>, variantCount>;

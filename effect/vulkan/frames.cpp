@@ -2,6 +2,7 @@
 #include "vulkan/context.hpp"
 
 #include "contract/validation.hpp"
+#include "transmit/transmit_blocks.h"
 
 #include <algorithm>
 
@@ -15,7 +16,7 @@ VkDeviceSize alignUp(VkDeviceSize size, VkDeviceSize alignment) {
 Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t recordCount) {
     // Per record of either kind; the intermediates may be of either type.
     const auto count = [recordCount](std::uint32_t perRecord) { return recordCount * perRecord; };
-    constexpr auto intermediateBindings = static_cast<std::uint32_t>(intermediateCount);
+    constexpr auto intermediateBindings = maxIntermediates;
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count(2)},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count(5 + 2 * intermediateBindings)},

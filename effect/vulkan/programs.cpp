@@ -97,8 +97,8 @@ void createPrograms(Context& context, VkPipelineCache cache) {
 IntermediateResources createIntermediates(const Context& context, VkExtent2D extent) {
     IntermediateResources resources;
     const IntermediateSet used = context.scatter.intermediates | context.transmit.intermediates;
-    for (std::size_t i = 0; i < intermediateCount; ++i) {
-        const IntermediateInfo& info = intermediates[i];
+    for (std::size_t i = 0; i < maxIntermediates; ++i) {
+        const Intermediate& info = intermediates()[i];
         if (!(used >> i & 1u)) {
             continue;
         }

@@ -10,9 +10,9 @@ void beginIntermediates(const PassRecording& recording) {
     if (recording.intermediates == 0) {
         return;
     }
-    std::array<VkImageMemoryBarrier, intermediateCount> images;
+    std::array<VkImageMemoryBarrier, maxIntermediates> images;
     std::uint32_t imageCount = 0;
-    for (std::size_t i = 0; i < intermediateCount; ++i) {
+    for (std::size_t i = 0; i < maxIntermediates; ++i) {
         const VkImage image = recording.context.intermediates[i].image.image.get();
         if ((recording.intermediates >> i & 1u) == 0 || image == VK_NULL_HANDLE) {
             continue;
@@ -43,7 +43,7 @@ void passBarrier(const PassRecording& recording, const Pass& next) {
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
     barrier.dstAccessMask = shaderAccess;
-    if (next.indirect != Intermediate::Count) {
+    if (next.isIndirect()) {
         stages |= VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
         barrier.dstAccessMask |= VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
     }
@@ -53,10 +53,9 @@ void passBarrier(const PassRecording& recording, const Pass& next) {
 
 void dispatch(const PassRecording& recording, const Pass& pass) {
     const DispatchTable& vk = recording.context.device.vk;
-    if (pass.indirect != Intermediate::Count) {
-        const auto index = static_cast<std::size_t>(pass.indirect);
-        vk.CmdDispatchIndirect(recording.commandBuffer, recording.context.intermediates[index].buffer.buffer.get(),
-                               pass.indirectOffset);
+    if (pass.isIndirect()) {
+        vk.CmdDispatchIndirect(recording.commandBuffer,
+                               recording.context.intermediates[pass.indirect].buffer.buffer.get(), pass.indirectOffset);
         return;
     }
     const VkExtent3D groups = pass.grid(recording.area);
@@ -138,7 +137,7 @@ void DescriptorWriter::output(std::uint32_t binding, const NacreImage& given) {
 }
 
 void DescriptorWriter::intermediates(const Context& context, IntermediateSet set) {
-    for (std::uint32_t i = 0; i < intermediateCount; ++i) {
+    for (std::uint32_t i = 0; i < maxIntermediates; ++i) {
         if ((set >> i & 1u) == 0) {
             continue;
         }
@@ -168,12 +167,11 @@ void recordPasses(const PassRecording& recording) {
     IntermediateSet written = 0;
     IntermediateSet arguments = 0; // written since an indirect dispatch's barrier
     const auto record = [&](const Pass& pass, const Owned<VkPipeline>& pipeline) {
-        const bool isIndirect = pass.indirect != Intermediate::Count;
-        const bool asksArguments = isIndirect && (arguments & bit(pass.indirect)) != 0;
+        const bool asksArguments = pass.isIndirect() && (arguments & bit(pass.indirect)) != 0;
         if (((pass.reads | pass.writes) & written) != 0 || (pass.writes & read) != 0 || asksArguments) {
             passBarrier(recording, pass);
             read = written = 0;
-            arguments = isIndirect ? 0 : arguments;
+            arguments = pass.isIndirect() ? 0 : arguments;
         }
         beginLabel(recording, pass.name);
         vk.CmdBindPipeline(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());

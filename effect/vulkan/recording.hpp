@@ -1,6 +1,7 @@
 // Writes descriptors and records a technique's passes. Allocates nothing.
 #pragma once
 
+#include "transmit/transmit_blocks.h"
 #include "vulkan/context.hpp"
 
 namespace nacre::effect {
@@ -22,7 +23,7 @@ public:
     void write(const Device& device);
 
 private:
-    static constexpr std::size_t capacity = 32 + intermediateCount;
+    static constexpr std::size_t capacity = 32 + maxIntermediates;
     VkWriteDescriptorSet& add(std::uint32_t binding, VkDescriptorType type);
     void buffer(std::uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& info);
     void image(std::uint32_t binding, VkDescriptorType type, VkImageView view, VkImageLayout layout);

@@ -1,4 +1,5 @@
 // Technique `brute`: every pixel within the 99.9 % radius, true distance and area. The reference of the others.
+#include "baselines/brute/brute_blocks.h"
 #include "technique.hpp"
 
 #include "nacre/burley.hpp"
@@ -33,21 +34,31 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
     std::memcpy(bytes.data(), &table, sizeof(table));
 }
 
+constexpr Intermediate bruteIntermediates[] = {
+    {.number = intermediatePixels,
+     .name = "nacre brute pixels",
+     .bytes = [](VkExtent2D extent) { return VkDeviceSize{sizeof(BrutePixel)} * extent.width * extent.height; }},
+};
+
 constexpr Pass passes[] = {
     {.name = "nacre brute pixels",
      .file = "scatter_brute_pixels",
      .spirv = scatter_brute_pixels_spv,
-     .writes = bit(Intermediate::Pixels),
+     .writes = bit(intermediatePixels),
      .grid = tiles<8, 8>},
     {.name = "nacre brute gather",
      .file = "scatter_brute_gather",
      .spirv = scatter_brute_gather_spv,
-     .reads = bit(Intermediate::Pixels),
+     .reads = bit(intermediatePixels),
      .grid = tiles<8, 8>},
 };
 
 } // namespace
 
-const Technique bruteTechnique{"brute", passes, sizeof(BruteTable), buildTable};
+extern const Technique bruteTechnique{.name = "brute",
+                                      .intermediates = bruteIntermediates,
+                                      .passes = passes,
+                                      .tableBytes = sizeof(BruteTable),
+                                      .buildTable = buildTable};
 
 } // namespace nacre::effect

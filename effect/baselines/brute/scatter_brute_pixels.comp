@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface/scatter.glsl"
 #include "interface/tangent_plane.glsl"
+#include "brute_blocks.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = bindingIntermediates + intermediatePixels, std430) writeonly buffer Pixels {

@@ -8,6 +8,7 @@
 // - A light that is not finite is black.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "thesis_blocks.h"
 #include "interface/scatter.glsl"
 
 #ifdef HORIZONTAL

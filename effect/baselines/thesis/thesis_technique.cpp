@@ -1,6 +1,6 @@
 // Technique `thesis`: a pass pair per material with a slice kernel, as in Andersen's appendix B. The kernel comes from
 // the material's table, or is compiled into the pair (nacreBakeThesisKernel).
-#include "contract/parameters.hpp"
+#include "baselines/thesis/thesis_blocks.h"
 #include "contract/validation.hpp"
 #include "vulkan/context.hpp"
 
@@ -34,6 +34,21 @@ void buildTable(const Material& material, const Profile&, std::span<std::byte> t
     }
 }
 
+std::uint32_t radiusOrDefault(std::uint32_t radius, const char* field) {
+    constexpr std::uint32_t defaultRadius = 5; // the thesis's experiment 1
+    if (radius > thesisMaxRadius) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", radius, ", must be in [1, ", thesisMaxRadius, "]");
+    }
+    return radius == 0 ? defaultRadius : radius;
+}
+
+void setParameters(const NacreScatterInfo& info, VkExtent2D, ScatterParameters& parameters) {
+    constexpr float defaultStrength = 0.1f;
+    checkRange(info.thesisStrength, 0, 1e6f, "NacreScatterInfo::thesisStrength");
+    parameters.thesisStrength = info.thesisStrength == 0 ? defaultStrength : info.thesisStrength;
+    parameters.thesisRadius = radiusOrDefault(info.thesisRadius, "NacreScatterInfo::thesisRadius");
+}
+
 VkExtent3D rowGroups(VkExtent2D area) {
     return tiles<thesisGroupSize, 1>(area);
 }
@@ -47,16 +62,18 @@ constexpr Pass copyPass[] = {{.name = "nacre thesis copy",
                               .spirv = scatter_thesis_copy_spv,
                               .grid = tiles<8, 8>}};
 
+constexpr Intermediate thesisIntermediates[] = {rowsIntermediate};
+
 constexpr Pass materialPasses[] = {
     {.name = "nacre thesis rows",
      .file = "scatter_thesis_rows",
      .spirv = scatter_thesis_rows_spv,
-     .writes = bit(Intermediate::Rows),
+     .writes = bit(intermediateRows),
      .grid = rowGroups},
     {.name = "nacre thesis columns",
      .file = "scatter_thesis_columns",
      .spirv = scatter_thesis_columns_spv,
-     .reads = bit(Intermediate::Rows),
+     .reads = bit(intermediateRows),
      .grid = columnGroups},
 };
 
@@ -85,7 +102,7 @@ void bake(Context& context, std::uint32_t materialId, std::uint32_t radius) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "materialId is ", materialId, ", which nacreSetMaterials has not set");
     }
     KernelConstants constants{};
-    constants.radius = thesisRadius(radius, "radius");
+    constants.radius = radiusOrDefault(radius, "radius");
     const std::span<const std::byte> table = context.materials->currentTable(materialId, technique);
     std::memcpy(constants.taps, table.data() + thesisKernelStart(constants.radius) * sizeof(vec4),
                 (constants.radius + 1) * sizeof(vec4));
@@ -98,8 +115,14 @@ void bake(Context& context, std::uint32_t materialId, std::uint32_t radius) {
 
 } // namespace
 
-const Technique thesisTechnique{"thesis",   copyPass,       thesisTaps * sizeof(vec4),
-                                buildTable, materialPasses, "nacre thesis materials"};
+extern const Technique thesisTechnique{.name = "thesis",
+                                       .intermediates = thesisIntermediates,
+                                       .passes = copyPass,
+                                       .tableBytes = thesisTaps * sizeof(vec4),
+                                       .buildTable = buildTable,
+                                       .materialPasses = materialPasses,
+                                       .materialPassesName = "nacre thesis materials",
+                                       .setParameters = setParameters};
 
 } // namespace nacre::effect
 
