@@ -16,22 +16,25 @@ namespace nacre::app {
 namespace {
 
 using renderer::Output;
-using renderer::Technique;
 
 template <typename Value> struct Named {
     std::string_view name;
     Value value;
 };
 
-constexpr std::array techniques{
-    Named<Technique>{"default", Technique::Default},
-    Named<Technique>{"bank", Technique::Bank},
-    Named<Technique>{"bank-surfaces", Technique::BankSurfaces},
-    Named<Technique>{"separable", Technique::Separable},
-    Named<Technique>{"burley", Technique::Burley},
-    Named<Technique>{"thesis", Technique::Thesis},
-    Named<Technique>{"brute", Technique::Brute},
-};
+/// What --technique takes.
+std::vector<Named<NacreTechnique>> techniques() {
+    std::uint32_t count = 0;
+    nacreGetTechniques(&count, nullptr);
+    std::vector<NacreTechnique> all(count);
+    nacreGetTechniques(&count, all.data());
+    all.insert(all.begin(), NACRE_TECHNIQUE_DEFAULT);
+    std::vector<Named<NacreTechnique>> named;
+    for (const NacreTechnique technique : all) {
+        named.push_back({nacreTechniqueString(technique), technique});
+    }
+    return named;
+}
 
 constexpr std::array aovs{
     Named<Output>{"irradiance", Output::Irradiance},   Named<Output>{"scattered", Output::Scattered},
@@ -47,17 +50,16 @@ constexpr std::uint32_t maxSamples = 4;
 constexpr std::uint32_t minShadowMapSize = 16;
 constexpr std::uint32_t maxShadowMapSize = 16384;
 
-template <typename Value, std::size_t count> std::string names(const std::array<Named<Value>, count>& table) {
+template <typename Table> std::string names(const Table& table) {
     std::string result;
-    for (const Named<Value>& entry : table) {
+    for (const auto& entry : table) {
         result += (result.empty() ? "" : ", ") + std::string(entry.name);
     }
     return result;
 }
 
-template <typename Value, std::size_t count>
-Value find(const std::array<Named<Value>, count>& table, std::string_view name, const std::string& kind) {
-    const auto entry = std::ranges::find(table, name, &Named<Value>::name);
+template <typename Table> auto find(const Table& table, std::string_view name, const std::string& kind) {
+    const auto entry = std::ranges::find(table, name, &Table::value_type::name);
     if (entry == table.end()) {
         throw UsageError("there is no " + kind + " '" + std::string(name) + "', only " + names(table));
     }
@@ -125,10 +127,6 @@ void requireDistinctFiles(const RenderOptions& options) {
 
 } // namespace
 
-std::string_view techniqueName(Technique technique) {
-    return std::ranges::find(techniques, technique, &Named<Technique>::value)->name;
-}
-
 RenderOptionParser::RenderOptionParser(CLI::App& command) {
     const auto add = [&command](const std::string& group, const std::string& name, auto& value,
                                 const std::string& description, const std::string& type) {
@@ -169,7 +167,7 @@ RenderOptionParser::RenderOptionParser(CLI::App& command) {
     add(camera, "--fov", fieldOfView_, "Vertical field of view", "DEGREES");
 
     const std::string effect = "Effect";
-    add(effect, "--technique", technique_, "How light is spread: " + names(techniques), "NAME");
+    add(effect, "--technique", technique_, "How light is spread: " + names(techniques()), "NAME");
     addFlag(effect, "--no-scatter", noScatter_, "Leave out light spreading under lit surfaces");
     addFlag(effect, "--no-transmit", noTransmit_, "Leave out light coming through thin parts");
     add(effect, "--shadow-map-size", options_.settings.shadowMapSize,
@@ -196,7 +194,7 @@ RenderOptions RenderOptionParser::finish() const {
     const PictureSize size = parseSize(size_);
     options.settings.width = size.width;
     options.settings.height = size.height;
-    options.settings.technique = find(techniques, technique_, "technique");
+    options.settings.technique = find(techniques(), technique_, "technique");
     options.settings.scatter = !noScatter_;
     options.settings.transmit = !noTransmit_;
     options.settings.dither = true;

@@ -37,9 +37,6 @@ struct RenderOptions {
     std::vector<AovOutput> aovs;
 };
 
-/// As --technique names it: "default", "separable" …
-std::string_view techniqueName(renderer::Technique technique);
-
 /// Adds the options to `command`. They are in `options` once the command line has been parsed and `finish` called.
 class RenderOptionParser {
 public:

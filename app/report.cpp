@@ -45,7 +45,7 @@ Json describe(const RenderOptions& options, const scene::Scene& scene, const sce
     return {{"width", settings.width},
             {"height", settings.height},
             {"samples", settings.samples},
-            {"technique", techniqueName(settings.technique)},
+            {"technique", nacreTechniqueString(settings.technique)},
             {"scatter", settings.scatter},
             {"transmit", settings.transmit},
             {"shadowMapSize", settings.shadowMapSize},

@@ -35,8 +35,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/nacre DESTINATION ${CMAKE_INSTAL
         FILES_MATCHING PATTERN *.h PATTERN *.hpp PATTERN files.hpp EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT nacre)
 # The parts, for engines that dispatch by themselves: GLSL sources and the SPIR-V made of them.
+if(NOT NACRE_BUILD_BASELINES)
+    set(no_baselines PATTERN baselines EXCLUDE)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/effect/ DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre/shaders COMPONENT nacre
-        FILES_MATCHING PATTERN *.comp PATTERN *.glsl PATTERN *.h PATTERN api EXCLUDE PATTERN contract EXCLUDE PATTERN vulkan EXCLUDE)
+        FILES_MATCHING PATTERN *.comp PATTERN *.glsl PATTERN *.h PATTERN api EXCLUDE PATTERN contract EXCLUDE PATTERN vulkan EXCLUDE
+        ${no_baselines})
 get_target_property(spirv nacre NACRE_SPIRV)
 install(FILES ${spirv} DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre/spirv COMPONENT nacre)
 

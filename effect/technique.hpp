@@ -60,11 +60,11 @@ struct Pass {
     VkDeviceSize indirectOffset = 0;
     /// Whether it has the constant separateMaterials, true for frames where some materials do not exchange light with
     /// some others: asking costs nothing where no one does.
-    bool asksMaterials = false;
+    bool hasSeparateMaterials = false;
     /// The same with the constant severalShadowMaps, for calls with more than one.
-    bool asksShadowMaps = false;
+    bool hasSeveralShadowMaps = false;
     /// The same with the constant albedoOrStrength, for calls with such an image or a material of strength below 1.
-    bool asksAlbedoOrStrength = false;
+    bool hasAlbedoOrStrength = false;
 };
 
 /// Which of a pass's pipelines: a bit for every specialization constant that is true, by its constant_id.
@@ -76,8 +76,8 @@ inline constexpr std::size_t variantCount = 4;
 
 /// The constants that a pass has.
 constexpr Variant variantsOf(const Pass& pass) {
-    return (pass.asksMaterials ? separateMaterials : 0) | (pass.asksShadowMaps ? severalShadowMaps : 0) |
-           (pass.asksAlbedoOrStrength ? albedoOrStrength : 0);
+    return (pass.hasSeparateMaterials ? separateMaterials : 0) | (pass.hasSeveralShadowMaps ? severalShadowMaps : 0) |
+           (pass.hasAlbedoOrStrength ? albedoOrStrength : 0);
 }
 
 /// A grid of one workgroup per width × height px.
@@ -96,19 +96,23 @@ inline vec4 toVec4(const Rgb& rgb, double w) {
 /// A way to scatter, or transmit: its passes in order, what lies between them, and the table it needs of every
 /// material.
 struct Technique {
-    const char* name;
+    const char* name = nullptr;
     std::span<const Intermediate> intermediates = {};
-    std::span<const Pass> passes;
-    std::size_t tableBytes; ///< per material, a multiple of 16
+    std::span<const Pass> passes = {};
+    std::size_t tableBytes = 0; ///< per material, a multiple of 16
     /// Fills one material's table (tableBytes, zeroed).
-    void (*buildTable)(const Material& material, const Profile& profile, std::span<std::byte> table);
+    void (*buildTable)(const Material& material, const Profile& profile, std::span<std::byte> table) = nullptr;
     /// After `passes`, for one material after another; its slot is pushed. Timed
     /// as one, under materialPassesName.
     std::span<const Pass> materialPasses = {};
     const char* materialPassesName = nullptr;
-    /// Fills its part of a call's parameters; throws a Failure that names the field. Null: it has none.
+    /// Fills its part of a call's parameters; throws an EffectError that names the field. Null: it has none.
     void (*setParameters)(const NacreScatterInfo& info, VkExtent2D area, ScatterParameters& parameters) = nullptr;
 
+    bool isBaseline = false;
+
+    /// Not where a baseline was left out of the build.
+    bool isBuilt() const { return name != nullptr; }
     IntermediateSet uses() const;
 };
 

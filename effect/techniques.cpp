@@ -1,13 +1,19 @@
+// The one table of techniques. It is in the order of NacreTechnique, then transmission.
 #include "technique.hpp"
 
 namespace nacre::effect {
 
 extern const Technique separableTechnique;
-extern const Technique bruteTechnique;
 extern const Technique bankTechnique;
 extern const Technique burleyTechnique;
-extern const Technique thesisTechnique;
 extern const Technique bankSurfacesTechnique;
+#if NACRE_BASELINES
+extern const Technique bruteTechnique;
+extern const Technique thesisTechnique;
+#else
+static const Technique bruteTechnique{};
+static const Technique thesisTechnique{};
+#endif
 
 const std::array<const Technique*, techniqueCount> techniques{
     &separableTechnique, &bruteTechnique,        &bankTechnique,    &burleyTechnique,

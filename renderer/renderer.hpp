@@ -1,6 +1,7 @@
 // The deferred renderer: draws a scene, lights it, and calls the effect through include/nacre/nacre.h alone.
 #pragma once
 
+#include "nacre/nacre_baselines.h"
 #include "renderer/device.hpp"
 #include "scene/scene.hpp"
 
@@ -9,9 +10,6 @@
 #include <vector>
 
 namespace nacre::renderer {
-
-/// How the diffuse light of subsurface materials is spread.
-enum class Technique { Default, Bank, BankSurfaces, Separable, Burley, Thesis, Brute };
 
 /// Images that can be read back. All but Color are `samples` times as wide and as high as the picture.
 enum class Output {
@@ -30,14 +28,11 @@ enum class Output {
 
 /// What may change from frame to frame.
 struct EffectSettings {
-    Technique technique = Technique::Default;
+    NacreTechnique technique = NACRE_TECHNIQUE_DEFAULT; ///< how the diffuse light of subsurface materials is spread
     bool scatter = true;
     bool transmit = true;
     std::uint32_t burleySampleBudget = 0; ///< [1 … 256] most samples per pixel; 0 = the effect's default
-    std::uint32_t thesisRadius = 0;       ///< [1 … 16] taps on either side; 0 = the effect's default
-    float thesisStrength = 0;             ///< [> 0] in scene units, see NacreScatterInfo; 0 = the effect's default
-    bool thesisBakedKernel = false;       ///< the first material's kernel, compiled in, for all
-    bool thesisTransmittance = false;     ///< T = Σ w·exp(−d²/v), the thesis's own form, see NacreTransmitInfo
+    NacreBaselineSettings baselines{};    ///< the baked kernel is the first material's, for all
 };
 
 struct RenderSettings : EffectSettings {

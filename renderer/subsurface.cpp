@@ -11,26 +11,6 @@
 namespace nacre::renderer {
 namespace {
 
-NacreTechnique convert(Technique technique) {
-    switch (technique) {
-    case Technique::Bank:
-        return NACRE_TECHNIQUE_BANK;
-    case Technique::BankSurfaces:
-        return NACRE_TECHNIQUE_BANK_SURFACES;
-    case Technique::Separable:
-        return NACRE_TECHNIQUE_SEPARABLE;
-    case Technique::Burley:
-        return NACRE_TECHNIQUE_BURLEY;
-    case Technique::Thesis:
-        return NACRE_TECHNIQUE_THESIS;
-    case Technique::Brute:
-        return NACRE_TECHNIQUE_BRUTE;
-    case Technique::Default:
-        break;
-    }
-    return NACRE_TECHNIQUE_DEFAULT;
-}
-
 /// The materials, once each is known to be valid.
 const std::vector<Material>& checked(const std::vector<Material>& materials) {
     for (const Material& material : materials) {
@@ -43,10 +23,10 @@ const std::vector<Material>& checked(const std::vector<Material>& materials) {
 
 /// NacreContextInfo::techniques for this technique, and for the one that materials, which are valid, ask for in its
 /// place.
-std::uint32_t techniquesFor(Technique technique, const std::vector<Material>& materials) {
-    const bool asks = (technique == Technique::Default || technique == Technique::Bank) &&
+std::uint32_t techniquesFor(NacreTechnique technique, const std::vector<Material>& materials) {
+    const bool asks = (technique == NACRE_TECHNIQUE_DEFAULT || technique == NACRE_TECHNIQUE_BANK) &&
                       std::ranges::any_of(materials, asksForSecondSurfaces);
-    return 1u << convert(technique) | (asks ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0);
+    return 1u << technique | (asks ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0);
 }
 
 void copy(float (&target)[3], const glm::vec3& value) {
@@ -214,7 +194,7 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Fr
     info.lights = lights_.data();
     info.shadowMapCount = 1;
     info.shadowMaps = &maps;
-    info.thesisTransmittance = settings.thesisTransmittance;
+    info.baselines = &settings.baselines;
     info.transmitted = effectImage(transmitted_);
     if (info_.thickness) {
         info.thicknessOut = effectImage(thickness_);
@@ -229,10 +209,11 @@ void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
         createContext(gpu, needed);
         setMaterials(materials_);
     }
-    const bool bakes = settings.technique == Technique::Thesis && settings.thesisBakedKernel && !materials_.empty();
-    if (bakes && bakedRadius_ != settings.thesisRadius) {
-        check(nacreBakeThesisKernel(context_.get(), 1, settings.thesisRadius));
-        bakedRadius_ = settings.thesisRadius;
+    const bool bakes =
+        settings.technique == NACRE_TECHNIQUE_THESIS && settings.baselines.thesisBakedKernel && !materials_.empty();
+    if (bakes && bakedRadius_ != settings.baselines.thesisRadius) {
+        check(nacreBakeThesisKernel(context_.get(), 1, settings.baselines.thesisRadius));
+        bakedRadius_ = settings.baselines.thesisRadius;
     }
 }
 
@@ -246,11 +227,11 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     NacreScatterInfo info{};
     info.view = makeView(frame.view);
     info.frame = frame.index;
-    info.technique = convert(settings.technique);
+    info.technique = settings.technique;
     info.burleySampleBudget = settings.burleySampleBudget;
-    info.thesisRadius = settings.thesisRadius;
-    info.thesisStrength = settings.thesisStrength;
-    info.thesisBakedKernel = settings.thesisBakedKernel && !materials_.empty();
+    NacreBaselineSettings baselines = settings.baselines;
+    baselines.thesisBakedKernel = baselines.thesisBakedKernel && !materials_.empty();
+    info.baselines = &baselines;
     info.irradiance = effectImage(irradiance);
     info.depth = effectImage(depth);
     info.materialId = effectImage(materialId);
@@ -266,9 +247,9 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Fra
     check(nacreCmdScatter(context_.get(), *commandBuffer, &info));
 }
 
-NacreCost Subsurface::scatterCost(Technique technique) const {
+NacreCost Subsurface::scatterCost(NacreTechnique technique) const {
     NacreCost cost{};
-    check(nacreGetScatterCost(context_.get(), convert(technique), &cost));
+    check(nacreGetScatterCost(context_.get(), technique, &cost));
     return cost;
 }
 

@@ -22,8 +22,8 @@ public:
         std::uint32_t framesInFlight = 1;
         std::uint32_t recordsPerFrame = 1; ///< of the effect
         float metersPerUnit = 1;
-        bool thickness = false;                   ///< RenderSettings::thickness
-        Technique technique = Technique::Default; ///< the first; prepareSettings adds others
+        bool thickness = false;                             ///< RenderSettings::thickness
+        NacreTechnique technique = NACRE_TECHNIQUE_DEFAULT; ///< the first; prepareSettings adds others
     };
 
     Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
@@ -62,7 +62,7 @@ public:
     void prepareSettings(Gpu& gpu, const EffectSettings& settings);
     /// Replaces all materials; the device must be idle.
     void setMaterials(const std::vector<Material>& materials);
-    NacreCost scatterCost(Technique technique) const;
+    NacreCost scatterCost(NacreTechnique technique) const;
     NacreCost transmitCost() const;
 
 private:

@@ -28,9 +28,13 @@ Value choose(std::string_view option, std::string_view text, const Choice<Value>
 
 std::vector<NacreTechnique> realTimeTechniques() {
     std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
-    for (int i = 1; std::string_view(nacreTechniqueString(static_cast<NacreTechnique>(i))) != "unknown"; ++i) {
-        if (i != NACRE_TECHNIQUE_BRUTE && i != NACRE_TECHNIQUE_BANK) {
-            techniques.push_back(static_cast<NacreTechnique>(i));
+    std::uint32_t count = 0;
+    nacreGetTechniques(&count, nullptr);
+    std::vector<NacreTechnique> all(count);
+    nacreGetTechniques(&count, all.data());
+    for (const NacreTechnique technique : all) {
+        if (technique != NACRE_TECHNIQUE_BRUTE && technique != NACRE_TECHNIQUE_BANK) {
+            techniques.push_back(technique);
         }
     }
     return techniques;

@@ -97,13 +97,13 @@ void addForms(std::vector<PassForm>& forms, const std::string& technique, const 
               std::span<const std::uint32_t> spirv, const std::string& precision) {
     const std::string prefix = precision.empty() ? "" : precision + ", ";
     forms.push_back({technique, pass.name, precision, spirv});
-    if (pass.asksMaterials) {
+    if (pass.hasSeparateMaterials) {
         forms.push_back({technique, pass.name, prefix + "separate materials", spirv, Constant{0, VK_TRUE}});
     }
-    if (pass.asksShadowMaps) {
+    if (pass.hasSeveralShadowMaps) {
         forms.push_back({technique, pass.name, prefix + "several shadow maps", spirv, Constant{0, VK_TRUE}});
     }
-    if (pass.asksAlbedoOrStrength) {
+    if (pass.hasAlbedoOrStrength) {
         forms.push_back({technique, pass.name, prefix + "no albedo and strength 1", spirv, Constant{1, VK_FALSE}});
     }
 }
@@ -185,8 +185,12 @@ struct NamedTechnique {
 std::vector<NamedTechnique> techniquesCalled(const std::string& name) {
     std::vector<NamedTechnique> found;
     std::string known = std::string(everyTechnique);
-    for (int i = 1; i <= NACRE_TECHNIQUE_TRANSMIT; ++i) {
-        const auto technique = static_cast<NacreTechnique>(i);
+    std::uint32_t count = 0;
+    nacreGetTechniques(&count, nullptr);
+    std::vector<NacreTechnique> techniques(count);
+    nacreGetTechniques(&count, techniques.data());
+    techniques.push_back(NACRE_TECHNIQUE_TRANSMIT);
+    for (const NacreTechnique technique : techniques) {
         const std::string own = technique == NACRE_TECHNIQUE_TRANSMIT ? "transmit" : nacreTechniqueString(technique);
         known += ", " + own;
         if (name == everyTechnique || name == own) {

@@ -55,9 +55,9 @@ Picture makePicture(const std::shared_ptr<const View>& view, std::size_t number,
             .view = view,
             .size = quick ? quickPictureSize : pictureSize,
             .materials = view->scene->materials,
-            .before = {.technique = renderer::Technique::Brute},
+            .before = {.technique = NACRE_TECHNIQUE_BRUTE},
             .beforeText = "brute",
-            .after = {.technique = renderer::Technique::Bank},
+            .after = {.technique = NACRE_TECHNIQUE_BANK},
             .afterText = "bank"};
 }
 

@@ -207,7 +207,7 @@ private:
             return {};
         }
         Configuration exact = series_.configurations.front();
-        exact.effect.technique = renderer::Technique::Brute;
+        exact.effect.technique = NACRE_TECHNIQUE_BRUTE;
         exact.size = *series_.errorAt;
         const ReferencePicture reference(picture(exact));
         std::vector<ImageError> errors;

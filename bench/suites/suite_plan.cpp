@@ -12,7 +12,7 @@ double targetDistance(const scene::Camera& camera) {
     return static_cast<double>(glm::length(camera.target - camera.position));
 }
 
-// The thesis's 1 / tan(55° / 2), times 2: NacreScatterInfo::thesisStrength says how it moves taps.
+// The thesis's 1 / tan(55° / 2), times 2: NacreBaselineSettings::thesisStrength says how it moves taps.
 constexpr double thesisStep = 2 * 1.92;
 
 } // namespace

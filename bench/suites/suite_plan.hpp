@@ -69,7 +69,7 @@ struct Plan {
 /// Pixels per millimetre at the camera's target.
 double pixelsPerMillimeter(const View& view, const Size& size);
 
-/// EffectSettings::thesisStrength at which the thesis's kernel of `radius` texels has its offsets where they belong at
+/// NacreBaselineSettings::thesisStrength at which the thesis's kernel of `radius` texels has its offsets where they belong at
 /// the camera's target.
 float thesisStrength(const View& view, const Size& size, std::uint32_t radius);
 

@@ -6,17 +6,16 @@ namespace nacre::bench {
 namespace {
 
 using renderer::EffectSettings;
-using renderer::Technique;
 
 constexpr std::uint32_t thesisRadii[] = {3, 5, 8, 12, 16};
 constexpr std::uint32_t burleyBudgets[] = {8, 16, 32, 64, 128};
 constexpr double pixelShares[] = {0.5, 0.75, 1};
 
 EffectSettings thesisSettings(const View& view, const Size& size, std::uint32_t radius, bool baked) {
-    return {.technique = Technique::Thesis,
-            .thesisRadius = radius,
-            .thesisStrength = thesisStrength(view, size, radius),
-            .thesisBakedKernel = baked};
+    return {.technique = NACRE_TECHNIQUE_THESIS,
+            .baselines = {.thesisRadius = radius,
+                          .thesisStrength = thesisStrength(view, size, radius),
+                          .thesisBakedKernel = baked}};
 }
 
 // The size of the same shape with `share` of the pixels.
@@ -32,16 +31,17 @@ Size shrunk(const Size& size, double share) {
 std::vector<Variant> scatterVariants(const View& view, const Size& size, std::uint32_t radius) {
     EffectSettings thesis = thesisSettings(view, size, radius, false);
     EffectSettings baked = thesisSettings(view, size, radius, true);
-    thesis.thesisTransmittance = baked.thesisTransmittance = true;
+    thesis.baselines.thesisTransmittance = baked.baselines.thesisTransmittance = VK_TRUE;
     return {{"thesis", thesis},
             {"thesis-baked", baked},
-            {"separable", {.technique = Technique::Separable}},
-            {"burley", {.technique = Technique::Burley}},
-            {"bank", {.technique = Technique::Bank}}};
+            {"separable", {.technique = NACRE_TECHNIQUE_SEPARABLE}},
+            {"burley", {.technique = NACRE_TECHNIQUE_BURLEY}},
+            {"bank", {.technique = NACRE_TECHNIQUE_BANK}}};
 }
 
 std::vector<Variant> transmitVariants() {
-    return {{"thesis", {.scatter = false, .thesisTransmittance = true}}, {"slab", {.scatter = false}}};
+    return {{"thesis", {.scatter = false, .baselines = {.thesisTransmittance = VK_TRUE}}},
+            {"slab", {.scatter = false}}};
 }
 
 std::vector<QualityVariant> qualityVariants(const View& view, const Size& size) {
@@ -54,11 +54,11 @@ std::vector<QualityVariant> qualityVariants(const View& view, const Size& size) 
         add("thesis", thesisSettings(view, size, radius, false), radius, "texels", size);
     }
     for (const std::uint32_t budget : burleyBudgets) {
-        add("burley", {.technique = Technique::Burley, .burleySampleBudget = budget}, budget, "samples", size);
+        add("burley", {.technique = NACRE_TECHNIQUE_BURLEY, .burleySampleBudget = budget}, budget, "samples", size);
     }
     for (const auto& [name, technique] :
-         {std::pair{"separable", Technique::Separable}, std::pair{"bank", Technique::Bank},
-          std::pair{"bank-surfaces", Technique::BankSurfaces}}) {
+         {std::pair{"separable", NACRE_TECHNIQUE_SEPARABLE}, std::pair{"bank", NACRE_TECHNIQUE_BANK},
+          std::pair{"bank-surfaces", NACRE_TECHNIQUE_BANK_SURFACES}}) {
         for (const double share : pixelShares) {
             add(name, {.technique = technique}, 100 * share, "% of the pixels", shrunk(size, share));
         }

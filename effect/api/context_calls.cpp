@@ -1,5 +1,7 @@
 // Creation, resizing, materials and costs of a context.
+#include "api/guard.hpp"
 #include "vulkan/context.hpp"
+#include "vulkan/technique_choice.hpp"
 
 #include "contract/validation.hpp"
 
@@ -83,9 +85,12 @@ std::array<bool, techniqueCount> enabledTechniques(std::uint32_t mask) {
         mask |= 1u << defaultTechnique;
     }
     std::array<bool, techniqueCount> enabled{};
-    enabled.fill(mask == 0);
     for (std::size_t i = 0; i < scatterTechniqueCount; ++i) {
-        enabled[i] = enabled[i] || (mask >> (i + 1) & 1u) != 0;
+        const bool isAsked = (mask >> (i + 1) & 1u) != 0;
+        if (isAsked) {
+            checkBuilt(i, "NacreContextInfo::techniques");
+        }
+        enabled[i] = isAsked || (mask == 0 && techniques[i]->isBuilt());
     }
     enabled[transmitIndex] = true;
     return enabled;
@@ -111,7 +116,8 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
         }
     }
     context.maxExtent = info.maxExtent;
-    context.intermediates = createIntermediates(context, info.maxExtent);
+    context.intermediates = createIntermediates(
+        context.device, context.scatter.intermediates | context.transmit.intermediates, info.maxExtent);
     context.materials.emplace(context.device, materials, frames, context.enabled);
     context.uniforms = createUniforms(context, frames, records);
 }
@@ -144,9 +150,9 @@ std::uint32_t recordCount(const NacreContextInfo& info) {
 
 void create(Context& context, const NacreContextInfo& info) {
     prepare(context, info, frameCount(info), recordCount(info));
-    createPrograms(context, info.pipelineCache);
+    createPipelines(context, info.pipelineCache);
     context.givenMemory = info.deviceMemory;
-    context.intermediateMemory = layOut(context, context.intermediates)
+    context.intermediateMemory = layOut(context.device, context.intermediates)
                                      .place(MemoryUse::Device, info.deviceMemory, "NacreContextInfo::deviceMemory");
     context.hostMemory =
         layOutHostMemory(context).place(MemoryUse::Host, info.hostMemory, "NacreContextInfo::hostMemory");
@@ -157,8 +163,10 @@ void create(Context& context, const NacreContextInfo& info) {
 void resize(Context& context, VkExtent2D maxExtent) {
     checkExtent(context.device, maxExtent);
     Owned<VkDeviceMemory> memory; // freed after its resources are destroyed
-    IntermediateResources resources = createIntermediates(context, maxExtent);
-    memory = layOut(context, resources).place(MemoryUse::Device, context.givenMemory, "NacreContextInfo::deviceMemory");
+    IntermediateResources resources =
+        createIntermediates(context.device, context.scatter.intermediates | context.transmit.intermediates, maxExtent);
+    memory = layOut(context.device, resources)
+                 .place(MemoryUse::Device, context.givenMemory, "NacreContextInfo::deviceMemory");
     std::swap(context.intermediates, resources);
     std::swap(context.intermediateMemory, memory);
     context.maxExtent = maxExtent;
@@ -238,7 +246,7 @@ NacreResult nacreGetMemoryRequirements(const NacreContextInfo* info, NacreMemory
         checkVersion(*info);
         Context context;
         prepare(context, *info, frameCount(*info), recordCount(*info));
-        requirements->device = layOut(context, context.intermediates).requirements();
+        requirements->device = layOut(context.device, context.intermediates).requirements();
         requirements->host = layOutHostMemory(context).requirements();
     });
 }

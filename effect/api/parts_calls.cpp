@@ -1,11 +1,15 @@
 // nacre_parts.h: what a context is made of, for those who do without one.
+#include "api/guard.hpp"
+#include "contract/list.hpp"
 #include "contract/material_check.hpp"
 #include "contract/parameters.hpp"
 #include "contract/validation.hpp"
 #include "transmit/light_parameters.hpp"
 #include "transmit/transmit_blocks.h"
 #include "vulkan/bindings.hpp"
-#include "vulkan/context.hpp"
+
+#include "nacre/nacre_baselines.h"
+#include "nacre/nacre_parts.h"
 
 #include <algorithm>
 #include <cstring>
@@ -25,7 +29,9 @@ const Technique& techniqueOf(NacreTechnique technique) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "technique is ", static_cast<int>(technique),
              ", must be a NacreTechnique or NACRE_TECHNIQUE_TRANSMIT");
     }
-    return *techniques[static_cast<std::size_t>(chosen) - 1];
+    const auto index = static_cast<std::size_t>(chosen) - 1;
+    checkBuilt(index, "technique");
+    return *techniques[index];
 }
 static_assert(NACRE_TECHNIQUE_TRANSMIT == static_cast<int>(transmitIndex) + 1);
 
@@ -34,20 +40,6 @@ void checkExtent(VkExtent2D extent, const char* field) {
         extent.height > largestExtent.height) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", extent.width, "x", extent.height,
              ", each side must be in [1, ", largestExtent.width, "] px");
-    }
-}
-
-/// Vulkan's way to hand over a list.
-template <typename Item> void handOver(std::span<const Item> items, std::uint32_t* count, Item* to, const char* field) {
-    checkGiven(count, field);
-    if (!to) {
-        *count = static_cast<std::uint32_t>(items.size());
-        return;
-    }
-    *count = std::min(*count, static_cast<std::uint32_t>(items.size()));
-    std::copy_n(items.begin(), *count, to);
-    if (*count < items.size()) {
-        fail(NACRE_ERROR_LIMIT_EXCEEDED, field, " is ", *count, ", there are ", items.size());
     }
 }
 
@@ -91,9 +83,9 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.reads = bindingBits(pass.reads);
     result.writes = bindingBits(pass.writes);
     result.perMaterial = perMaterial;
-    result.asksMaterials = pass.asksMaterials;
-    result.asksShadowMaps = pass.asksShadowMaps;
-    result.asksAlbedoOrStrength = pass.asksAlbedoOrStrength;
+    result.hasSeparateMaterials = pass.hasSeparateMaterials;
+    result.hasSeveralShadowMaps = pass.hasSeveralShadowMaps;
+    result.hasAlbedoOrStrength = pass.hasAlbedoOrStrength;
     if (pass.isIndirect()) {
         result.indirectBinding = bindingIntermediates + pass.indirect;
         result.indirectOffset = pass.indirectOffset;
@@ -161,8 +153,9 @@ NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t im
     return guarded(messages, [&] {
         checkGiven(info, "NacreScatterInfo");
         checkOptional(images, bitOf(NACRE_IMAGE_NORMAL) | bitOf(NACRE_IMAGE_STRENGTH) | bitOf(NACRE_IMAGE_ALBEDO));
-        if (info->thesisBakedKernel) {
-            fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisBakedKernel is ", info->thesisBakedKernel,
+        if (info->baselines && info->baselines->thesisBakedKernel) {
+            fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreBaselineSettings::thesisBakedKernel is ",
+                 info->baselines->thesisBakedKernel,
                  ", must be VK_FALSE: the passes of nacreGetPasses read their kernels from the tables");
         }
         const VkRect2D area = renderArea(info->view, info->irradiance.extent, largestExtent, "NacreScatterInfo");

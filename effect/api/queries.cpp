@@ -1,7 +1,7 @@
 // What can be asked without a context.
-#include "contract/validation.hpp"
+#include "api/guard.hpp"
+#include "contract/list.hpp"
 #include "vulkan/bindings.hpp"
-#include "vulkan/context.hpp"
 
 #include <algorithm>
 
@@ -47,6 +47,7 @@ const char* nacreResultString(NacreResult result) {
         NACRE_CASE(NACRE_ERROR_OUT_OF_MEMORY)
         NACRE_CASE(NACRE_ERROR_VERSION_MISMATCH)
         NACRE_CASE(NACRE_ERROR_VULKAN)
+        NACRE_CASE(NACRE_ERROR_UNSUPPORTED)
 #undef NACRE_CASE
     default:
         return "NACRE_ERROR_UNKNOWN";
@@ -58,7 +59,21 @@ const char* nacreTechniqueString(NacreTechnique technique) {
         return "default";
     }
     const auto index = static_cast<std::size_t>(technique) - 1;
-    return index < scatterTechniqueCount ? techniques[index]->name : "unknown";
+    return index < scatterTechniqueCount && techniques[index]->isBuilt() ? techniques[index]->name : "unknown";
+}
+
+NacreResult nacreGetTechniques(uint32_t* techniqueCount, NacreTechnique* techniquesOut) {
+    return guard(nullptr, nullptr, [&] {
+        std::vector<NacreTechnique> list;
+        for (const bool baseline : {false, true}) {
+            for (std::size_t i = 0; i < scatterTechniqueCount; ++i) {
+                if (techniques[i]->isBuilt() && techniques[i]->isBaseline == baseline) {
+                    list.push_back(static_cast<NacreTechnique>(i + 1));
+                }
+            }
+        }
+        handOver(std::span<const NacreTechnique>(list), techniqueCount, techniquesOut, "techniqueCount");
+    });
 }
 
 NacreResult nacreGetRequirements(NacreRequirements* requirements) {

@@ -1,30 +1,14 @@
 // nacreCmdScatter: checks the arguments, fills descriptors and parameters, records the technique's passes.
+#include "api/guard.hpp"
+#include "baselines/baselines.hpp"
 #include "contract/parameters.hpp"
 #include "contract/validation.hpp"
 #include "vulkan/recording.hpp"
+#include "vulkan/technique_choice.hpp"
 
 #include <cstring>
 
 namespace nacre::effect {
-
-std::size_t scatterTechniqueIndex(const Context& context, NacreTechnique technique, const char* field) {
-    const NacreTechnique chosen = technique == NACRE_TECHNIQUE_DEFAULT ? defaultTechnique : technique;
-    if (chosen < 1 || static_cast<std::size_t>(chosen) > scatterTechniqueCount) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", static_cast<int>(technique), ", must be a NacreTechnique");
-    }
-    const auto index = static_cast<std::size_t>(chosen) - 1;
-    if (!context.enabled[index]) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", nacreTechniqueString(chosen),
-             ", which is not among NacreContextInfo::techniques");
-    }
-    return index;
-}
-
-std::size_t chosenTechniqueIndex(const Context& context, std::size_t asked, const MaterialTable::Summary& materials) {
-    constexpr std::size_t bank = NACRE_TECHNIQUE_BANK - 1;
-    constexpr std::size_t bankSurfaces = NACRE_TECHNIQUE_BANK_SURFACES - 1;
-    return asked == bank && materials.haveSecondSurfaces && context.enabled[bankSurfaces] ? bankSurfaces : asked;
-}
 
 namespace {
 
@@ -61,35 +45,21 @@ Variant variantOf(ImageSet given, const MaterialTable::Summary& materials) {
            ((given & asking) != 0 || materials.havePartialStrength ? albedoOrStrength : 0);
 }
 
-void checkBakedKernel(const Context& context, const NacreScatterInfo& info) {
-    if (info.technique != NACRE_TECHNIQUE_THESIS || !info.thesisBakedKernel) {
-        return;
-    }
-    if (context.bakedThesis.empty()) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisBakedKernel is ", info.thesisBakedKernel,
-             ", but nacreBakeThesisKernel was not called");
-    }
-    if (info.thesisRadius != 0 && info.thesisRadius != context.bakedThesisRadius) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisRadius is ", info.thesisRadius,
-             ", the baked kernel's is ", context.bakedThesisRadius);
-    }
-}
-
 void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatterInfo& info) {
     constexpr const char* name = "NacreScatterInfo";
     const std::size_t asked = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
     const VkRect2D area = renderArea(info.view, info.irradiance.extent, context.maxExtent, name);
     const ImageSet given = checkImages(info, area);
-    Record& record = nextRecord(context, info.frame, &Frame::scatter, name);
+    CallResources& call = nextCall(context, info.frame, &Frame::scatter, name);
     const MaterialTable::Summary& materials = context.materials->summary(info.frame);
     const std::size_t technique = chosenTechniqueIndex(context, asked, materials);
     const ScatterParameters parameters = scatterParameters(info, given, area, materials.havePreAndPost);
-    checkBakedKernel(context, info);
+    const bool baked = takesBakedKernel(context, info);
 
     // From here on nothing fails.
-    std::memcpy(record.mappedParameters, &parameters, sizeof(parameters));
-    DescriptorWriter descriptors(record.set);
-    descriptors.uniform(bindingParameters, record.parameters);
+    std::memcpy(call.mappedParameters, &parameters, sizeof(parameters));
+    DescriptorWriter descriptors(call.set);
+    descriptors.uniform(bindingParameters, call.parameters);
     descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
     descriptors.storage(bindingTables, context.materials->table(info.frame, technique));
     descriptors.sampled(bindingDepth, info.depth, info.depth);
@@ -102,9 +72,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.intermediates(context, context.scatter.intermediates);
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
-    recordPasses({context, context.scatter, technique, commandBuffer, record.set, area.extent, info.timestamps,
-                  techniques[technique]->uses(), materials.slotCount, variantOf(given, materials),
-                  info.thesisBakedKernel != VK_FALSE});
+    recordPasses({context, context.scatter, technique, commandBuffer, call.set, area.extent, info.timestamps,
+                  techniques[technique]->uses(), materials.slotCount, variantOf(given, materials), baked});
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // nacreCmdTransmit: checks the arguments, fills descriptors, parameters and lights, records the pass.
+#include "api/guard.hpp"
 #include "contract/parameters.hpp"
 #include "contract/validation.hpp"
 #include "transmit/light_parameters.hpp"
@@ -51,19 +52,19 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     const ImageSet given = checkImages(info, area);
     const TransmitParameters parameters = transmitParameters(info, given, area);
     checkLightsAndMaps(context, info);
-    Record& record = nextRecord(context, info.frame, &Frame::transmit, "NacreTransmitInfo");
+    CallResources& call = nextCall(context, info.frame, &Frame::transmit, "NacreTransmitInfo");
 
     // From here on nothing fails.
-    std::memcpy(record.mappedParameters, &parameters, sizeof(parameters));
-    fillLights(info, record.mappedLights);
+    std::memcpy(call.mappedParameters, &parameters, sizeof(parameters));
+    fillLights(info, call.mappedLights);
     const std::span maps(info.shadowMaps, info.shadowMapCount);
     const NacreImage noMap{.view = context.intermediates[intermediateNoShadowMap].image.view.get(),
                            .layout = VK_IMAGE_LAYOUT_GENERAL};
-    DescriptorWriter descriptors(record.set);
-    descriptors.uniform(bindingParameters, record.parameters);
+    DescriptorWriter descriptors(call.set);
+    descriptors.uniform(bindingParameters, call.parameters);
     descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
     descriptors.storage(bindingTables, context.materials->table(info.frame, transmitIndex));
-    descriptors.storage(bindingLights, record.lights);
+    descriptors.storage(bindingLights, call.lights);
     descriptors.sampled(bindingDepth, info.depth, info.depth);
     descriptors.sampled(bindingMaterialId, info.materialId, info.materialId);
     descriptors.sampled(bindingNormal, info.normal, info.normal);
@@ -76,7 +77,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.intermediates(context, context.transmit.intermediates);
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
-    recordPasses({context, context.transmit, transmitIndex, commandBuffer, record.set, area.extent, info.timestamps,
+    recordPasses({context, context.transmit, transmitIndex, commandBuffer, call.set, area.extent, info.timestamps,
                   maps.empty() ? transmitTechnique.uses() : 0, 0, maps.size() > 1 ? severalShadowMaps : 0});
 }
 

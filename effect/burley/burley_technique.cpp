@@ -1,6 +1,6 @@
 // Technique `burley`: importance samples of a disc, one pass. Closed forms for Burley's profile, tables for layers.
 #include "burley/burley_blocks.h"
-#include "contract/failure.hpp"
+#include "contract/effect_error.hpp"
 #include "technique.hpp"
 
 #include "nacre/burley.hpp"

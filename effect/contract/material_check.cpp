@@ -1,6 +1,6 @@
 #include "contract/material_check.hpp"
 
-#include "contract/failure.hpp"
+#include "contract/effect_error.hpp"
 
 #include <cmath>
 #include <string>

@@ -14,7 +14,7 @@ struct CheckedMaterial {
     MaterialParameters parameters;
 };
 
-/// Throws a Failure that names the field, and the material by its id unless that is 0.
+/// Throws an EffectError that names the field, and the material by its id unless that is 0.
 CheckedMaterial checkMaterial(const NacreMaterial& material, std::uint32_t id);
 
 } // namespace nacre::effect

@@ -1,5 +1,6 @@
 #include "contract/parameters.hpp"
 
+#include "baselines/baselines.hpp"
 #include "contract/validation.hpp"
 #include "contract/view_parameters.hpp"
 #include "technique.hpp"
@@ -57,7 +58,7 @@ TransmitParameters transmitParameters(const NacreTransmitInfo& info, ImageSet gi
     constexpr const char* name = "NacreTransmitInfo";
     TransmitParameters parameters{};
     ViewParameters& view = parameters.view;
-    view.flags = flagsOf(given) | flagNormal | (info.thesisTransmittance ? flagThesisTransmittance : 0u);
+    view.flags = flagsOf(given) | flagNormal | (takesThesisTransmittance(info) ? flagThesisTransmittance : 0u);
     checkRange(info.normalOffset, 0, 1000, "NacreTransmitInfo::normalOffset");
     checkRange(info.filterRadius, 0, 1000, "NacreTransmitInfo::filterRadius");
     setNormals(view, info, name);

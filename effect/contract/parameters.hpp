@@ -1,5 +1,5 @@
-// The parameter blocks of a call, filled from its info. Each throws a Failure that names the field and its value, and
-// allocates nothing else.
+// The parameter blocks of a call, filled from its info. Each throws an EffectError that names the field and its value,
+// and allocates nothing else.
 #pragma once
 
 #include "interface/blocks.h"

@@ -1,5 +1,7 @@
 #include "contract/validation.hpp"
 
+#include "technique.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +62,13 @@ void checkFormatAndUsage(const NacreImage& image, const NacreImageRequirements& 
 }
 
 } // namespace
+
+void checkBuilt(std::size_t technique, const char* field) {
+    if (!techniques[technique]->isBuilt()) {
+        fail(NACRE_ERROR_UNSUPPORTED, field, " asks for NacreTechnique ", technique + 1,
+             ", a baseline that this library was built without (NACRE_BUILD_BASELINES)");
+    }
+}
 
 NacreImageRequirements imageRequirements(NacreImageSlot which) {
     constexpr VkImageUsageFlags sampled = VK_IMAGE_USAGE_SAMPLED_BIT;

@@ -1,11 +1,14 @@
-// Checks of what the caller hands over. Each throws a Failure that names the field and its value.
+// Checks of what the caller hands over. Each throws an EffectError that names the field and its value.
 #pragma once
 
-#include "contract/failure.hpp"
+#include "contract/effect_error.hpp"
 
 #include <span>
 
 namespace nacre::effect {
+
+/// Throws when the library was built without the technique, an index in `techniques`.
+void checkBuilt(std::size_t technique, const char* field);
 
 /// The formats and usage of nacreGetImageRequirements; throws for a slot that does not exist.
 NacreImageRequirements imageRequirements(NacreImageSlot slot);

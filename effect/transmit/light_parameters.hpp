@@ -1,4 +1,4 @@
-// The lights of a call of transmission, as its pass reads them. Each throws a Failure that names the field and its
+// The lights of a call of transmission, as its pass reads them. Each throws an EffectError that names the field and its
 // value.
 #pragma once
 

@@ -62,7 +62,7 @@ constexpr Pass passes[] = {
      .spirv = transmit_spv,
      .reads = bit(intermediateNoShadowMap),
      .grid = tiles<8, 16>,
-     .asksShadowMaps = true},
+     .hasSeveralShadowMaps = true},
 };
 
 } // namespace

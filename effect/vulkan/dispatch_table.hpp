@@ -31,7 +31,7 @@ struct DispatchTable {
     PFN_vkSetDebugUtilsObjectNameEXT SetDebugUtilsObjectNameEXT = nullptr;
 };
 
-/// Throws Failure (failure.hpp) naming the entry point that is missing.
+/// Throws EffectError (effect_error.hpp) naming the entry point that is missing.
 DispatchTable loadDispatchTable(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkDevice device);
 
 } // namespace nacre::effect

@@ -1,6 +1,6 @@
 #include "vulkan/material_table.hpp"
 
-#include "contract/failure.hpp"
+#include "contract/effect_error.hpp"
 #include "contract/material_check.hpp"
 
 #include <algorithm>

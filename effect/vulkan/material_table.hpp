@@ -23,7 +23,7 @@ public:
     /// No material is set. Call once, when the buffers have memory.
     void clear();
 
-    /// Sets materials firstId … . Throws Failure naming the material and field; nothing has changed then.
+    /// Sets materials firstId … . Throws EffectError naming the material and field; nothing has changed then.
     void set(std::uint32_t firstId, std::span<const NacreMaterial> materials);
     /// Copies what changed since this frame began last.
     void update(std::uint32_t frame);

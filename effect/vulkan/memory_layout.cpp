@@ -1,6 +1,6 @@
 #include "vulkan/memory_layout.hpp"
 
-#include "contract/failure.hpp"
+#include "contract/effect_error.hpp"
 
 #include <algorithm>
 

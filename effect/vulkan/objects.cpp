@@ -1,6 +1,6 @@
 #include "vulkan/objects.hpp"
 
-#include "contract/failure.hpp"
+#include "contract/effect_error.hpp"
 
 namespace nacre::effect {
 

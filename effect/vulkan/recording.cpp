@@ -37,7 +37,7 @@ void beginIntermediates(const PassRecording& recording) {
 }
 
 /// Makes the writes of earlier passes visible to `next`. Only one that is dispatched indirectly has its arguments
-/// waited for: on an NVIDIA H200 that takes 2 us more.
+/// waited for, since that takes longer.
 void passBarrier(const PassRecording& recording, const Pass& next) {
     VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
@@ -160,7 +160,7 @@ void recordPasses(const PassRecording& recording) {
     const DispatchTable& vk = recording.context.device.vk;
     beginLabel(recording, technique.name);
     beginIntermediates(recording);
-    vk.CmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, recording.programs.layout.get(),
+    vk.CmdBindDescriptorSets(recording.commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, recording.callLayout.layout.get(),
                              0, 1, &recording.set, 0, nullptr);
     timestamp(recording, 0);
     IntermediateSet read = 0;
@@ -190,11 +190,11 @@ void recordPasses(const PassRecording& recording) {
     }
     if (!technique.materialPasses.empty()) {
         for (std::uint32_t slot = 1; slot <= recording.materialCount; ++slot) {
-            vk.CmdPushConstants(recording.commandBuffer, recording.programs.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT,
+            vk.CmdPushConstants(recording.commandBuffer, recording.callLayout.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT,
                                 0, sizeof(slot), &slot);
             for (std::size_t i = 0; i < technique.materialPasses.size(); ++i) {
                 record(technique.materialPasses[i],
-                       recording.baked ? recording.context.bakedThesis[i] : pipelines[passCount + i][0]);
+                       recording.baked ? recording.context.bakedPasses[i] : pipelines[passCount + i][0]);
             }
         }
         timestamp(recording, passCount + 1);

@@ -38,7 +38,7 @@ private:
 /// What recordPasses needs to know.
 struct PassRecording {
     const Context& context;
-    const Programs& programs;
+    const CallLayout& callLayout;
     std::size_t technique; ///< index in `techniques`
     VkCommandBuffer commandBuffer;
     VkDescriptorSet set;
@@ -47,7 +47,7 @@ struct PassRecording {
     IntermediateSet intermediates; ///< what this call touches; with none, it does not wait for what was recorded before
     std::uint32_t materialCount = 0; ///< the technique's materialPasses run for the slots 1 … materialCount
     Variant variant = 0;             ///< what this call asks of the passes that have the constant
-    bool baked = false;              ///< materialPasses have the kernel of nacreBakeThesisKernel
+    bool baked = false;              ///< materialPasses are those that were baked (nacreBakeThesisKernel)
 };
 
 /// Records the technique's passes with what lies between them: barriers, labels, timestamps.

@@ -92,21 +92,19 @@ typedef enum NacreResult {
     NACRE_ERROR_OUT_OF_MEMORY = -5,      /**< host or device memory */
     NACRE_ERROR_VERSION_MISMATCH = -6,   /**< header and library differ */
     NACRE_ERROR_VULKAN = -7,             /**< a Vulkan call failed; the message names it and its VkResult */
+    NACRE_ERROR_UNSUPPORTED = -8,        /**< this library was built without what is asked for: a baseline */
     NACRE_RESULT_MAX_ENUM = 0x7fffffff
 } NacreResult;
 
-/** How light is spread. */
+/** How light is spread. Two are baselines, which others are compared with; a library may be built without them
+ *  (nacre_baselines.h). */
 typedef enum NacreTechnique {
     NACRE_TECHNIQUE_DEFAULT = 0,   /**< the library's choice: NACRE_TECHNIQUE_BANK */
     NACRE_TECHNIQUE_SEPARABLE = 1, /**< two passes, line-spread kernels, world-space bilateral weights */
-    NACRE_TECHNIQUE_BRUTE = 2,     /**< every pixel within the 99.9 % radius; slow, the reference of the others */
+    NACRE_TECHNIQUE_BRUTE = 2,     /**< baseline: every pixel within the 99.9 % radius; slow, the reference of the others */
     NACRE_TECHNIQUE_BANK = 3,      /**< mixtures of one bank of blurs; flat in radius and layers, nearly so in materials */
     NACRE_TECHNIQUE_BURLEY = 4,    /**< one pass, importance samples of a disc, one per 4 px of it up to a budget; noisy */
-    NACRE_TECHNIQUE_THESIS = 5,    /**< the baseline (Andersen, "Screen-Space Subsurface Scattering"): a pass pair per
-                                        material, a radius in texels. Its own rules: material strength narrows the step
-                                        between taps in place of mixing; other materials are black unless depth tells
-                                        them apart; exchange groups are not used; a surface's width on screen does not
-                                        follow the material's millimetres */
+    NACRE_TECHNIQUE_THESIS = 5,    /**< baseline: a pass pair per material, a radius in texels, rules of its own */
     NACRE_TECHNIQUE_BANK_SURFACES = 6, /**< NACRE_TECHNIQUE_BANK that keeps two surfaces where one is in front of another:
                                             more accurate at folds and thin parts, and slower there. Materials may ask
                                             for it (NacreMaterial::secondSurfaces) */
@@ -122,7 +120,7 @@ typedef enum NacreDepthEncoding {
 typedef enum NacreAlbedoUse {
     NACRE_ALBEDO_POST = 0,         /**< scatter irradiance, multiply by the albedo afterwards */
     NACRE_ALBEDO_PRE_AND_POST = 1, /**< multiply by the albedo's square root before and after; while any material has
-                                        it, scatter with an albedo image takes a few microseconds more */
+                                        it, scatter with an albedo image takes longer */
     NACRE_ALBEDO_USE_MAX_ENUM = 0x7fffffff
 } NacreAlbedoUse;
 
@@ -305,11 +303,7 @@ typedef struct NacreScatterInfo {
     uint32_t burleySampleBudget; /**< [1 … 256] most samples per pixel; 0 = 64 */
     uint32_t burleyRotation;     /**< turns the samples; equal values (modulo 64) give equal pictures. Counting frames
                                       suits temporal anti-aliasing */
-    uint32_t thesisRadius;       /**< [1 … 16] taps on either side; 0 = 5, or the baked kernel's */
-    float thesisStrength;        /**< [> 0, 1e6] the thesis's sssStrength, in scene units: taps move by strength · 2 ·
-                                      1.92 / depth / radius texels per millimetre of kernel offset (at most to the
-                                      radius), and depth differences of 1 / (576 · strength) stop the light; 0 = 0.1 */
-    VkBool32 thesisBakedKernel;  /**< every material gets the kernel of nacreBakeThesisKernel, which is compiled in */
+    const struct NacreBaselineSettings* baselines; /**< of nacre_baselines.h; null = their defaults */
     NacreImage scattered;     /**< output; not the irradiance image. Where there is no subsurface scattering it is the
                                    irradiance (times the albedo when one is given) */
     VkBool32 skipUnscattered; /**< leaves the pixels of `scattered` whose material id is 0 or was never set as they are:
@@ -346,25 +340,24 @@ typedef struct NacreTransmitInfo {
     NacreImage strength;          /**< optional, red: multiplies the material's translucency */
     uint32_t lightCount;
     const NacreLight* lights;
-    uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] images; with one, in whose layers all lights have their
-                                       map, it is 5 to 18 us quicker (1920x1080, NVIDIA H100) than with several */
+    uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] images; quickest with one,
+                                       in whose layers all lights have their map (docs/scatter.md) */
     const NacreImage* shadowMaps; /**< 2D array views of linear depth; extent: the map, from the view's first texel */
     float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
-    VkBool32 thesisTransmittance; /**< materials of layers: T = sum w exp(-d²/v), the thesis's own form, in place of
-                                       exp(-d²/2v), added up layer by layer in every pixel as in its shader */
+    const struct NacreBaselineSettings* baselines; /**< of nacre_baselines.h; null = their defaults */
     NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none, and where
-                                       the light enters at a point that the camera sees (but for thesisTransmittance) */
+                                       the light enters at a point that the camera sees */
     NacreImage thicknessOut;      /**< optional output, red: the thickness used, mm, smallest over the lights that
-                                       reach the pixel from behind; 0 = none. It takes 3 us (as above) */
+                                       reach the pixel from behind; 0 = none */
     NacreTimestamps timestamps;
 } NacreTransmitInfo;
 
-/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers (but
- *  for the time of thesisTransmittance) and, but for dispatchesPerMaterial, of materials. */
+/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers and, but for
+ *  dispatchesPerMaterial, of materials. */
 typedef struct NacreCost {
     uint32_t dispatchCount;         /**< with the materials set so far, as everything here */
-    uint32_t dispatchesPerMaterial; /**< how many of them each material takes: 2 for NACRE_TECHNIQUE_THESIS, else 0 */
+    uint32_t dispatchesPerMaterial; /**< how many of them each material takes; 0 but for a baseline */
     uint32_t passCount;             /**< what is timed: one a dispatch; all of dispatchesPerMaterial together are one */
     const char* const* passNames; /**< static storage */
     VkDeviceSize intermediateBytes; /**< device memory of the images and buffers between its passes, at maxExtent */
@@ -375,6 +368,12 @@ typedef struct NacreCost {
 NACRE_API uint32_t nacreGetVersion(void);
 /** The enumerator's name; "NACRE_ERROR_UNKNOWN" for other values. */
 NACRE_API const char* nacreResultString(NacreResult result);
+/** The techniques of scatter that this library has, the baselines last. techniques null: *techniqueCount becomes their
+ *  number. Else it is how many fit into techniques, and becomes how many were written; NACRE_ERROR_LIMIT_EXCEEDED when
+ *  that is not all. */
+NACRE_API NacreResult nacreGetTechniques(uint32_t* techniqueCount, NacreTechnique* techniques);
+/** A technique's name in options, files and messages, e.g. "bank-surfaces"; "default" for NACRE_TECHNIQUE_DEFAULT;
+ *  "unknown" for what this library does not have. Static storage. */
 NACRE_API const char* nacreTechniqueString(NacreTechnique technique);
 /** What a device must bring; no device is needed to ask. */
 NACRE_API NacreResult nacreGetRequirements(NacreRequirements* requirements);
@@ -394,10 +393,6 @@ NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent);
  *  the materials set before its nacreBeginFrame, whole. On error nothing changes. */
 NACRE_API NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count,
                                         const NacreMaterial* materials);
-/** Compiles the kernel of a material that is set, with this radius ([1 … 16] 0 = 5), into the passes that
- *  NacreScatterInfo::thesisBakedKernel chooses, in place of an earlier one. Later changes of the material do not reach it.
- *  The device must have finished with the context's work. On failure the earlier one stays. */
-NACRE_API NacreResult nacreBakeThesisKernel(NacreContext context, uint32_t materialId, uint32_t radius);
 /** Starts a frame: frame [0 … framesInFlight) may be recorded anew, with the materials set so far. The device must have
  *  finished what was recorded with this number before. Host work only; nothing is allocated. */
 NACRE_API NacreResult nacreBeginFrame(NacreContext context, uint32_t frame);

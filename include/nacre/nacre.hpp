@@ -44,9 +44,6 @@ public:
     [[nodiscard]] NacreResult setMaterials(std::uint32_t firstId, std::span<const NacreMaterial> materials) {
         return nacreSetMaterials(context_, firstId, static_cast<std::uint32_t>(materials.size()), materials.data());
     }
-    [[nodiscard]] NacreResult bakeThesisKernel(std::uint32_t materialId, std::uint32_t radius) {
-        return nacreBakeThesisKernel(context_, materialId, radius);
-    }
     [[nodiscard]] NacreResult beginFrame(std::uint32_t frame) { return nacreBeginFrame(context_, frame); }
     [[nodiscard]] NacreResult cmdScatter(VkCommandBuffer commandBuffer, const NacreScatterInfo& info) {
         return nacreCmdScatter(context_, commandBuffer, &info);

@@ -8,8 +8,8 @@
  * HOW
  *  set up    nacreGetBindings lists descriptor set 0 of a technique, nacreGetPasses its compute passes: SPIR-V, or the name
  *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial, a
- *            push constant of 4 bytes at offset 0. A pass with asksMaterials, asksShadowMaps or asksAlbedoOrStrength
- *            takes two pipelines; with two of these, four.
+ *            push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps or
+ *            hasAlbedoOrStrength takes two pipelines; with two of these, four.
  *  materials The buffer "materials" starts with 65536 uint32_t: the slot of every material id, 0 where none is set. Slots
  *            count from 1. nacreFillMaterial fills a slot's element there, nacreFillTable its element of "tables".
  *            A buffer of n materials is head + (n + 1) * stride bytes. Change a material only when no frame reads it.
@@ -17,7 +17,7 @@
  *            Those with perMaterial come last and run together, once for every slot, which is pushed.
  *  barriers  Between two passes where the later one reads or writes what an earlier one wrote, or writes what it read:
  *            from compute shader writes to compute shader reads and writes and to indirect arguments; these only before
- *            the first pass with an indirectBinding, since waiting for them takes longer (2 us on an NVIDIA H200). Before
+ *            the first pass with an indirectBinding, since waiting for them takes longer. Before
  *            the first pass the same, against the call before that used these intermediates. They need no contents to
  *            begin with.
  *  images    As in nacre.h, at their binding, in a layout of yours; outputs and intermediates are written as storage
@@ -75,13 +75,12 @@ typedef struct NacrePass {
     uint32_t reads;              /**< intermediates, bits 1u << NacreBinding::binding */
     uint32_t writes;             /**< likewise */
     VkBool32 perMaterial;        /**< run for every material's slot */
-    VkBool32 asksMaterials;      /**< has the specialization constant 0, a VkBool32, by default VK_FALSE: VK_TRUE in the
+    VkBool32 hasSeparateMaterials; /**< has the specialization constant 0, a VkBool32, by default VK_FALSE: VK_TRUE in the
                                       pipeline for frames where some materials that are set share no exchange group with
                                       some others; the one without is quicker */
-    VkBool32 asksShadowMaps;     /**< the same for calls with more than one shadow map: in the pipeline without, all lights
-                                      with a shadow map have the first. It takes 5 to 18 us less where transmit takes 44
-                                      to 135 (1920x1080, NVIDIA H100) */
-    VkBool32 asksAlbedoOrStrength; /**< has the specialization constant 1, a VkBool32, by default VK_TRUE: VK_FALSE in the
+    VkBool32 hasSeveralShadowMaps; /**< the same for calls with more than one shadow map: in the pipeline without, which is
+                                      quicker, all lights with a shadow map have the first */
+    VkBool32 hasAlbedoOrStrength; /**< has the specialization constant 1, a VkBool32, by default VK_TRUE: VK_FALSE in the
                                       pipeline for calls with neither an albedo nor a strength image, while every
                                       material that is set has strength 1 */
     VkExtent3D groups;           /**< workgroups to dispatch; 0 where indirectBinding is not */
@@ -111,7 +110,7 @@ NACRE_API NacreResult nacreFillTable(NacreTechnique technique, const NacreMateri
                                      const NacreMessages* messages, size_t size, void* data);
 /** "parameters" of a scatter technique (ScatterParameters). Of info's images only the extents of depth and materialId are
  *  looked at, and irradiance's where view.renderArea is zero; frame, technique and timestamps are not.
- *  thesisBakedKernel must be VK_FALSE. As for materials some of which have NACRE_ALBEDO_PRE_AND_POST: with an albedo image
+ *  NacreBaselineSettings::thesisBakedKernel must be VK_FALSE. As for materials some of which have NACRE_ALBEDO_PRE_AND_POST: with an albedo image
  *  the passes ask every pixel's.
  *  images: bits 1u << NacreImageSlot of the optional images that are bound. */
 NACRE_API NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t images,

@@ -1,5 +1,6 @@
 // The effect without a context (nacre_parts.h): passes dispatched by hand give the very picture of nacreCmdScatter and
 // nacreCmdTransmit, and wrong arguments are refused.
+#include "nacre/nacre_baselines.h"
 #include "tests/gpu/support/effect.hpp"
 #include "tests/gpu/support/parts_engine.hpp"
 
@@ -228,7 +229,8 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
         return info;
     };
     const auto noArea = changed(scatter, [](auto& i) { i.view.renderArea = {}; });
-    const auto baked = changed(scatter, [](auto& i) { i.thesisBakedKernel = VK_TRUE; });
+    const NacreBaselineSettings settings{.thesisBakedKernel = VK_TRUE};
+    const auto baked = changed(scatter, [&](auto& i) { i.baselines = &settings; });
     const auto badClip = changed(scatter, [](auto& i) { i.view.clipFromView[5] = nan; });
     const auto noDepth = changed(scatter, [](auto& i) { i.depth.extent = {}; });
     const auto badOffset = changed(transmit, [](auto& i) { i.normalOffset = -1; });
@@ -264,7 +266,7 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&noDepth, 0, m, size, to); },
          NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::depth.extent is 0x0, the render area reaches to 55x36"},
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&baked, 0, m, size, to); },
-         NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::thesisBakedKernel is 1"},
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreBaselineSettings::thesisBakedKernel is 1"},
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&badClip, 0, m, size, to); },
          NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::view.clipFromView[5] is nan"},
         {[&](auto* m, void* to) { return nacreFillScatterParameters(&scatter, 0, m, 100, to); },

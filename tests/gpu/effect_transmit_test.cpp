@@ -1,4 +1,5 @@
 // Transmit against closed forms: a slab lit from behind by directional, spot and point lights.
+#include "nacre/nacre_baselines.h"
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
 #include "tests/support/synthetic_scenes.hpp"
@@ -332,8 +333,9 @@ TEST_F(TransmitTest, ThesisTransmittance) {
     const NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
     const GpuImage map = shadowMap(source, slab);
     const NacreImage maps[] = {map.nacre()};
+    const NacreBaselineSettings settings{.thesisTransmittance = VK_TRUE};
     const Result result = transmit(opaqueTo(skin()), {&source, 1}, maps, worldFrame,
-                                   [](NacreTransmitInfo& info) { info.thesisTransmittance = VK_TRUE; });
+                                   [&](NacreTransmitInfo& info) { info.baselines = &settings; });
     double expected = 0;
     for (const Layer& layer : skin().layers) {
         expected += layer.weight[0] * std::exp(-1.5 * 1.5 / layer.variance);

@@ -63,7 +63,7 @@ TEST_F(Errors, TechniquesTooLargeForTheDeviceKeepNoOtherFromThePicture) {
     settings.scatter = true;
     renderer::Renderer renderer = render(plane(), settings);
     renderer::EffectSettings brute = settings;
-    brute.technique = renderer::Technique::Brute;
+    brute.technique = NACRE_TECHNIQUE_BRUTE;
     int refusals = 0;
     for (int attempt = 0; attempt < 2; ++attempt) {
         try {

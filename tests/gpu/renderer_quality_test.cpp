@@ -14,7 +14,6 @@ namespace {
 
 using renderer::Output;
 using renderer::Pixels;
-using renderer::Technique;
 
 class Quality : public RendererTest {};
 
@@ -41,8 +40,9 @@ struct Target {
     Technique technique;
     const char* name;
 };
-constexpr Target targets[] = {
-    {Technique::Separable, "separable"}, {Technique::Bank, "bank"}, {Technique::BankSurfaces, "bank-surfaces"}};
+constexpr Target targets[] = {{NACRE_TECHNIQUE_SEPARABLE, "separable"},
+                              {NACRE_TECHNIQUE_BANK, "bank"},
+                              {NACRE_TECHNIQUE_BANK_SURFACES, "bank-surfaces"}};
 
 // What the techniques are to have, dB.
 constexpr double leastOfSeparable = 38;
@@ -54,7 +54,7 @@ void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const
     settings.height = 180;
     settings.shadowMapSize = 512;
     settings.transmit = false;
-    settings.technique = Technique::Brute;
+    settings.technique = NACRE_TECHNIQUE_BRUTE;
     renderer::Renderer renderer(device(), scene, settings);
     renderer.render(camera);
     const Pixels reference = renderer.read(Output::Scattered);
@@ -65,9 +65,9 @@ void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const
         renderer.renderEffect();
         const double quality = psnr(renderer.read(Output::Scattered), reference, material);
         std::printf("%s, %s: %.1f dB\n", name.c_str(), target.name, quality);
-        EXPECT_GE(quality, target.technique == Technique::Bank           ? leastOfBank
-                           : target.technique == Technique::BankSurfaces ? 45
-                                                                         : leastOfSeparable)
+        EXPECT_GE(quality, target.technique == NACRE_TECHNIQUE_BANK            ? leastOfBank
+                           : target.technique == NACRE_TECHNIQUE_BANK_SURFACES ? 45
+                                                                               : leastOfSeparable)
             << name << ", " << target.name;
     }
 }

@@ -62,7 +62,7 @@ struct Variant {
     std::function<void(scene::Camera&, renderer::RenderSettings&)> apply;
 };
 
-void expectSameLight(renderer::Technique technique) {
+void expectSameLight(NacreTechnique technique) {
     using scene::Camera;
     using Settings = renderer::RenderSettings;
     const std::vector<Variant> variants{
@@ -100,11 +100,11 @@ void expectSameLight(renderer::Technique technique) {
 }
 
 TEST_F(Sweep, Default) {
-    expectSameLight(renderer::Technique::Default);
+    expectSameLight(NACRE_TECHNIQUE_DEFAULT);
 }
 
 TEST_F(Sweep, Separable) {
-    expectSameLight(renderer::Technique::Separable);
+    expectSameLight(NACRE_TECHNIQUE_SEPARABLE);
 }
 
 } // namespace

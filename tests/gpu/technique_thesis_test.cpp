@@ -1,6 +1,7 @@
 // Technique `thesis` against the thesis's listings (appendix B), run in double precision on the CPU: as they stand
 // where they are sound, with their faults mended as effect/baselines/thesis/scatter_thesis.comp mends them elsewhere.
 #include "nacre/kernel.hpp"
+#include "nacre/nacre_baselines.h"
 #include "tests/gpu/support/counted_calls.hpp"
 #include "tests/gpu/support/effect.hpp"
 #include "tests/support/worst.hpp"
@@ -190,11 +191,11 @@ protected:
     }
     static std::vector<Float4> scatter(Effect& effect, const ScatterInput& input, std::uint32_t radius, float strength,
                                        bool baked = false) {
+        const NacreBaselineSettings settings{
+            .thesisRadius = radius, .thesisStrength = strength, .thesisBakedKernel = baked};
         return effect.scatter(input, [&](NacreScatterInfo& info) {
             info.technique = NACRE_TECHNIQUE_THESIS;
-            info.thesisRadius = radius;
-            info.thesisStrength = strength;
-            info.thesisBakedKernel = baked;
+            info.baselines = &settings;
         });
     }
     std::vector<Material> materials{skin(), marble()};
@@ -317,16 +318,16 @@ TEST_F(ThesisTest, RefusesWhatIsOutOfRange) {
         }
         return {};
     };
-    EXPECT_EQ(message(17, 1, false), "NacreScatterInfo::thesisRadius is 17, must be in [1, 16]");
-    EXPECT_NE(message(5, -1, false).find("NacreScatterInfo::thesisStrength is -1"), std::string::npos);
-    EXPECT_NE(message(5, std::nanf(""), false).find("NacreScatterInfo::thesisStrength is"), std::string::npos);
+    EXPECT_EQ(message(17, 1, false), "NacreBaselineSettings::thesisRadius is 17, must be in [1, 16]");
+    EXPECT_NE(message(5, -1, false).find("NacreBaselineSettings::thesisStrength is -1"), std::string::npos);
+    EXPECT_NE(message(5, std::nanf(""), false).find("NacreBaselineSettings::thesisStrength is"), std::string::npos);
     EXPECT_NE(message(5, 1, true).find("nacreBakeThesisKernel was not called"), std::string::npos);
     EXPECT_EQ(nacreBakeThesisKernel(effect.context, 3, 5), NACRE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(effect.messages.back(), "materialId is 3, which nacreSetMaterials has not set");
     EXPECT_EQ(nacreBakeThesisKernel(effect.context, 1, 17), NACRE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(nacreBakeThesisKernel(effect.context, 1, 0), NACRE_SUCCESS);
     EXPECT_EQ(message(5, 1, true), "");
-    EXPECT_EQ(message(6, 1, true), "NacreScatterInfo::thesisRadius is 6, the baked kernel's is 5");
+    EXPECT_EQ(message(6, 1, true), "NacreBaselineSettings::thesisRadius is 6, the baked kernel's is 5");
 }
 
 } // namespace

@@ -59,6 +59,7 @@ extern const Technique bruteTechnique{.name = "brute",
                                       .intermediates = bruteIntermediates,
                                       .passes = passes,
                                       .tableBytes = sizeof(BruteTable),
-                                      .buildTable = buildTable};
+                                      .buildTable = buildTable,
+                                      .isBaseline = true};
 
 } // namespace nacre::effect

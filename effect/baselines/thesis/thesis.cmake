@@ -1,4 +1,4 @@
-target_sources(nacre PRIVATE baselines/thesis/thesis_technique.cpp)
+target_sources(nacre PRIVATE baselines/thesis/thesis_baking.cpp baselines/thesis/thesis_technique.cpp)
 nacre_shader(nacre baselines/thesis/scatter_thesis_copy.comp NAME scatter_thesis_copy TRANSLATED)
 nacre_shader(nacre baselines/thesis/scatter_thesis.comp NAME scatter_thesis_rows TRANSLATED DEFINES HORIZONTAL)
 nacre_shader(nacre baselines/thesis/scatter_thesis.comp NAME scatter_thesis_columns TRANSLATED)

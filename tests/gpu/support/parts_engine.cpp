@@ -29,7 +29,7 @@ std::uint32_t bitOf(NacreImageSlot slot, const NacreImage& image) {
 
 // The specialization constants that a pass asks with, a bit each.
 std::uint32_t constantsOf(const NacrePass& pass) {
-    return (pass.asksMaterials || pass.asksShadowMaps ? 1u : 0u) | (pass.asksAlbedoOrStrength ? 2u : 0u);
+    return (pass.hasSeparateMaterials || pass.hasSeveralShadowMaps ? 1u : 0u) | (pass.hasAlbedoOrStrength ? 2u : 0u);
 }
 
 } // namespace

@@ -1,8 +1,8 @@
-// The ring of descriptor sets and uniform memory: one of each per call and frame in flight.
-#include "vulkan/context.hpp"
+#include "vulkan/call_ring.hpp"
 
 #include "contract/validation.hpp"
 #include "transmit/transmit_blocks.h"
+#include "vulkan/context.hpp"
 
 #include <algorithm>
 
@@ -13,9 +13,9 @@ VkDeviceSize alignUp(VkDeviceSize size, VkDeviceSize alignment) {
     return (size + alignment - 1) / alignment * alignment;
 }
 
-Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t recordCount) {
-    // Per record of either kind; the intermediates may be of either type.
-    const auto count = [recordCount](std::uint32_t perRecord) { return recordCount * perRecord; };
+Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t callCount) {
+    // Per call of either kind; the intermediates may be of either type.
+    const auto count = [callCount](std::uint32_t perCall) { return callCount * perCall; };
     constexpr auto intermediateBindings = maxIntermediates;
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count(2)},
@@ -32,12 +32,12 @@ Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t recordCou
     return {device, pool, device.vk.DestroyDescriptorPool};
 }
 
-/// Bytes of the parts of a record.
-struct RecordBytes {
+/// Bytes of what a call takes.
+struct CallBytes {
     VkDeviceSize scatter, transmit, lights;
 };
 
-RecordBytes recordBytes(const Context& context) {
+CallBytes callBytes(const Context& context) {
     const VkPhysicalDeviceLimits& limits = context.device.limits;
     const VkDeviceSize alignment =
         std::max({limits.minUniformBufferOffsetAlignment, limits.minStorageBufferOffsetAlignment, VkDeviceSize{16}});
@@ -47,17 +47,17 @@ RecordBytes recordBytes(const Context& context) {
 
 } // namespace
 
-Buffer createUniforms(const Context& context, std::uint32_t frameCount, std::uint32_t recordsPerFrame) {
-    const RecordBytes bytes = recordBytes(context);
+Buffer createUniforms(const Context& context, std::uint32_t frameCount, std::uint32_t callsPerFrame) {
+    const CallBytes bytes = callBytes(context);
     return createBuffer(context.device,
-                        VkDeviceSize{frameCount} * recordsPerFrame * (bytes.scatter + bytes.transmit + bytes.lights),
+                        VkDeviceSize{frameCount} * callsPerFrame * (bytes.scatter + bytes.transmit + bytes.lights),
                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre parameters");
 }
 
-void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t recordsPerFrame) {
+void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t callsPerFrame) {
     const Device& device = context.device;
-    const RecordBytes bytes = recordBytes(context);
-    context.pool = createPool(device, frameCount * recordsPerFrame);
+    const CallBytes bytes = callBytes(context);
+    context.pool = createPool(device, frameCount * callsPerFrame);
 
     VkDeviceSize offset = 0;
     const auto place = [&](VkDescriptorBufferInfo& info, std::byte*& mapped, VkDeviceSize size) {
@@ -65,9 +65,9 @@ void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t reco
         mapped = context.uniforms.mapped + offset;
         offset += size;
     };
-    const auto allocateSet = [&](const Programs& programs) {
+    const auto allocateSet = [&](const CallLayout& callLayout) {
         VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-        const VkDescriptorSetLayout layout = programs.setLayout.get();
+        const VkDescriptorSetLayout layout = callLayout.setLayout.get();
         info.descriptorPool = context.pool.get();
         info.descriptorSetCount = 1;
         info.pSetLayouts = &layout;
@@ -77,21 +77,21 @@ void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t reco
     };
     context.frames.resize(frameCount);
     for (Frame& frame : context.frames) {
-        frame.scatter.records.resize(recordsPerFrame);
-        for (Record& record : frame.scatter.records) {
-            record.set = allocateSet(context.scatter);
-            place(record.parameters, record.mappedParameters, bytes.scatter);
+        frame.scatter.calls.resize(callsPerFrame);
+        for (CallResources& call : frame.scatter.calls) {
+            call.set = allocateSet(context.scatter);
+            place(call.parameters, call.mappedParameters, bytes.scatter);
         }
-        frame.transmit.records.resize(recordsPerFrame);
-        for (Record& record : frame.transmit.records) {
-            record.set = allocateSet(context.transmit);
-            place(record.parameters, record.mappedParameters, bytes.transmit);
-            place(record.lights, record.mappedLights, bytes.lights);
+        frame.transmit.calls.resize(callsPerFrame);
+        for (CallResources& call : frame.transmit.calls) {
+            call.set = allocateSet(context.transmit);
+            place(call.parameters, call.mappedParameters, bytes.transmit);
+            place(call.lights, call.mappedLights, bytes.lights);
         }
     }
 }
 
-Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, const char* info) {
+CallResources& nextCall(Context& context, std::uint32_t frame, FrameCalls Frame::*kind, const char* info) {
     if (frame >= context.frames.size()) {
         fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", the context has ", context.frames.size(),
              " frames in flight");
@@ -99,12 +99,12 @@ Record& nextRecord(Context& context, std::uint32_t frame, Records Frame::*kind, 
     if (frame != context.frame) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::frame is ", frame, ", not the one last given to nacreBeginFrame");
     }
-    Records& records = context.frames[frame].*kind;
-    if (records.used == records.records.size()) {
-        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", which already has its ", records.used,
+    FrameCalls& calls = context.frames[frame].*kind;
+    if (calls.used == calls.calls.size()) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", which already has its ", calls.used,
              " records (NacreContextInfo::recordsPerFrame)");
     }
-    return records.records[records.used];
+    return calls.calls[calls.used];
 }
 
 } // namespace nacre::effect

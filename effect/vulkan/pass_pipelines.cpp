@@ -1,13 +1,15 @@
-// Set layouts, pipelines and intermediates, all of which follow from the pass table.
+#include "vulkan/pass_pipelines.hpp"
+
+#include "contract/effect_error.hpp"
 #include "vulkan/bindings.hpp"
 #include "vulkan/context.hpp"
 
 namespace nacre::effect {
 namespace {
 
-void createLayout(Context& context, Programs& programs, CallKind kind) {
+void createLayout(Context& context, CallLayout& callLayout, CallKind kind) {
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
-    for (const NacreBinding& binding : bindingsOf(kind, programs.intermediates, context.maxExtent)) {
+    for (const NacreBinding& binding : bindingsOf(kind, callLayout.intermediates, context.maxExtent)) {
         layoutBindings.push_back({binding.binding, binding.type, binding.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     const Device& device = context.device;
@@ -17,7 +19,7 @@ void createLayout(Context& context, Programs& programs, CallKind kind) {
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
     check(device.vk.CreateDescriptorSetLayout(device.handle, &setInfo, device.allocator, &setLayout),
           "vkCreateDescriptorSetLayout");
-    programs.setLayout = {device, setLayout, device.vk.DestroyDescriptorSetLayout};
+    callLayout.setLayout = {device, setLayout, device.vk.DestroyDescriptorSetLayout};
 
     VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     layoutInfo.setLayoutCount = 1;
@@ -28,7 +30,7 @@ void createLayout(Context& context, Programs& programs, CallKind kind) {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(device.vk.CreatePipelineLayout(device.handle, &layoutInfo, device.allocator, &layout),
           "vkCreatePipelineLayout");
-    programs.layout = {device, layout, device.vk.DestroyPipelineLayout};
+    callLayout.layout = {device, layout, device.vk.DestroyPipelineLayout};
 }
 
 } // namespace
@@ -76,15 +78,15 @@ PassPipelines createVariants(const Device& device, VkPipelineLayout layout, cons
 
 } // namespace
 
-void createPrograms(Context& context, VkPipelineCache cache) {
+void createPipelines(Context& context, VkPipelineCache cache) {
     createLayout(context, context.scatter, CallKind::Scatter);
     createLayout(context, context.transmit, CallKind::Transmit);
     for (std::size_t i = 0; i < techniqueCount; ++i) {
         if (!context.enabled[i]) {
             continue;
         }
-        const Programs& programs = i == transmitIndex ? context.transmit : context.scatter;
-        const VkPipelineLayout layout = programs.layout.get();
+        const CallLayout& callLayout = i == transmitIndex ? context.transmit : context.scatter;
+        const VkPipelineLayout layout = callLayout.layout.get();
         for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
             for (Pass pass : part) {
                 pass.spirv = context.shaderFloat16 && !pass.halfSpirv.empty() ? pass.halfSpirv : pass.spirv;
@@ -92,44 +94,6 @@ void createPrograms(Context& context, VkPipelineCache cache) {
             }
         }
     }
-}
-
-IntermediateResources createIntermediates(const Context& context, VkExtent2D extent) {
-    IntermediateResources resources;
-    const IntermediateSet used = context.scatter.intermediates | context.transmit.intermediates;
-    for (std::size_t i = 0; i < maxIntermediates; ++i) {
-        const Intermediate& info = intermediates()[i];
-        if (!(used >> i & 1u)) {
-            continue;
-        }
-        if (info.format != VK_FORMAT_UNDEFINED) {
-            resources[i].image = createImage(context.device, info.extent(extent), info.format, info.array, info.name);
-            continue;
-        }
-        const VkDeviceSize bytes = info.bytes(extent);
-        if (bytes > context.device.limits.maxStorageBufferRange) {
-            fail(NACRE_ERROR_LIMIT_EXCEEDED, "maxExtent is ", extent.width, "x", extent.height, ": ", info.name,
-                 " would take ", bytes, " bytes, the device's maxStorageBufferRange is ",
-                 context.device.limits.maxStorageBufferRange,
-                 "; leave its technique out of "
-                 "NacreContextInfo::techniques or lower maxExtent");
-        }
-        resources[i].buffer = createBuffer(
-            context.device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, info.name);
-    }
-    return resources;
-}
-
-MemoryLayout layOut(const Context& context, IntermediateResources& resources) {
-    MemoryLayout layout(context.device);
-    for (IntermediateResource& resource : resources) {
-        if (resource.image.image.get() != VK_NULL_HANDLE) {
-            layout.add(resource.image);
-        } else if (resource.buffer.buffer.get() != VK_NULL_HANDLE) {
-            layout.add(resource.buffer);
-        }
-    }
-    return layout;
 }
 
 } // namespace nacre::effect

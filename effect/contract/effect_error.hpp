@@ -1,4 +1,4 @@
-// Errors inside the effect are exceptions; the C border (guard in context.hpp) turns them into a code and a message.
+// Errors inside the effect are exceptions; the C border (guard.hpp) turns them into a code and a message.
 #pragma once
 
 #include "nacre/nacre.h"
@@ -13,8 +13,8 @@
 namespace nacre::effect {
 
 /// A result code and one sentence that names the field and its value.
-struct Failure : std::runtime_error {
-    Failure(NacreResult code, const std::string& message) : std::runtime_error(message), result(code) {}
+struct EffectError : std::runtime_error {
+    EffectError(NacreResult code, const std::string& message) : std::runtime_error(message), result(code) {}
     NacreResult result;
 };
 
@@ -43,11 +43,11 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Throws a Failure whose message is the parts, one after the other.
+/// Throws an EffectError whose message is the parts, one after the other.
 template <typename... Parts> [[noreturn]] void fail(NacreResult result, const Parts&... parts) {
     std::ostringstream message;
     (message << ... << parts);
-    throw Failure(result, message.str());
+    throw EffectError(result, message.str());
 }
 
 /// Throws when a Vulkan call did not succeed; `call` is its name.
