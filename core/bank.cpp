@@ -15,7 +15,13 @@ constexpr int samplesPerBin = 2;
 constexpr int samplesPerOctave = samplesPerBin * BankTable::binsPerOctave;
 // From ½ px to bankReach − ½ px: 9 octaves and the two samples around the end.
 constexpr int reachSamples = 9 * samplesPerOctave + 2;
-constexpr int profileSamples = (BankTable::binCount - 1) * samplesPerBin + reachSamples;
+// Mixtures differ from scale to scale while the footprint (rms radius of the widest channel) is 2^leastFootprint to
+// 2^largestFootprint px. Below, every channel is the identity; above, every channel that is at most 16 times narrower
+// is wider than the bank.
+constexpr int leastFootprint = -4;
+constexpr int largestFootprint = 10;
+constexpr int footprintBins = (largestFootprint - leastFootprint) * BankTable::binsPerOctave + 1;
+constexpr int profileSamples = (footprintBins - 1) * samplesPerBin + reachSamples;
 
 using Vector = std::array<double, bankSize>;
 
@@ -85,26 +91,33 @@ BankWeights projectOnBank(const Profile& profile, double pixelsPerMillimeter) {
 
 BankTable::BankTable(const Profile& profile) : halves_(binCount * halvesPerBin) {
     const double widest = std::max({profile.rmsRadius(0), profile.rmsRadius(1), profile.rmsRadius(2), 1e-6});
-    firstBin_ = static_cast<int>(std::lround(binsPerOctave * (firstOctave - std::log2(widest))));
-    const double finest = std::exp2((firstBin_ + binCount - 1.0) / binsPerOctave);
+    // Bins from the scale of one pixel per millimetre on.
+    const int coarsest = static_cast<int>(std::lround(binsPerOctave * (leastFootprint - std::log2(widest))));
+    const double finest = std::exp2((coarsest + footprintBins - 1.0) / binsPerOctave);
+    std::vector<std::uint16_t> mixtures(footprintBins * halvesPerBin);
     for (int channel = 0; channel < 3; ++channel) {
         const std::vector<double> samples = sampleTail(profile, channel, finest);
         Vector mixture{1}; // the neighbouring bin's mixture is the start of the next
-        for (int bin = 0; bin < binCount; ++bin) {
-            const int first = (binCount - 1 - bin) * samplesPerBin;
+        for (int bin = 0; bin < footprintBins; ++bin) {
+            const int first = (footprintBins - 1 - bin) * samplesPerBin;
             const Vector sums = rightHandSide(std::span(samples).subspan(first, reachSamples));
             solveMixture(sums, mixture);
             Vector shares = mixture;
             leaveOutSmallShares(sums, shares);
             for (int kernel = 0; kernel < bankSize; ++kernel) {
-                halves_[bin * halvesPerBin + 3 * kernel + channel] = toHalf(static_cast<float>(shares[kernel]));
+                mixtures[bin * halvesPerBin + 3 * kernel + channel] = toHalf(static_cast<float>(shares[kernel]));
             }
         }
+    }
+    for (int bin = 0; bin < binCount; ++bin) {
+        const int own = std::clamp(bin + binsPerOctave * firstOctave - coarsest, 0, footprintBins - 1);
+        std::copy_n(&mixtures[own * halvesPerBin], halvesPerBin, &halves_[bin * halvesPerBin]);
     }
 }
 
 BankWeights BankTable::at(double pixelsPerMillimeter) const {
-    const double position = std::clamp(binsPerOctave * std::log2(pixelsPerMillimeter) - firstBin_, 0.0, binCount - 1.0);
+    const double position =
+        std::clamp(binsPerOctave * (std::log2(pixelsPerMillimeter) - firstOctave), 0.0, binCount - 1.0);
     const int bin = std::min(static_cast<int>(position), binCount - 2);
     const double fraction = position - bin;
     BankWeights weights{};

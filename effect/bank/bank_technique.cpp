@@ -29,8 +29,8 @@ namespace constants {
 static_assert(constants::bankLevels == bankLevels && constants::bankSize == bankSize);
 static_assert(constants::bankBinsPerOctave == BankTable::binsPerOctave);
 static_assert(BankTable::halvesPerBin == 3 * bankBinWords && bankBinWords == bankSize);
-static_assert(bankTableBins ==
-              (constants::bankLastOctave - constants::bankFirstOctave) * constants::bankBinsPerOctave + 1);
+static_assert(constants::bankFirstOctave == BankTable::firstOctave &&
+              constants::bankLastOctave == BankTable::lastOctave && bankTableBins == BankTable::binCount);
 
 constexpr std::size_t tableBytes = sizeof(uvec4) * bankTableWords;
 
@@ -97,10 +97,9 @@ VkDeviceSize fineTexelCount(VkExtent2D maxExtent) {
     return VkDeviceSize{finest.width} * finest.height;
 }
 
-// A profile's weights at one of the device's bins.
+// A profile's weights at a bin; beyond the last, those of the last.
 const std::uint16_t* weightsAt(const BankTable& table, int bin) {
-    const int own = bin + constants::bankBinsPerOctave * constants::bankFirstOctave - table.firstBin();
-    return &table.halves()[std::clamp(own, 0, BankTable::binCount - 1) * BankTable::halvesPerBin];
+    return &table.halves()[std::min(bin, BankTable::binCount - 1) * BankTable::halvesPerBin];
 }
 
 // Bits of the kernels that have a weight at a bin or the next.

@@ -41,26 +41,22 @@ public:
     /// response is within 4e-4 of the projection at that very scale, with 4 within 1.5e-3; where one bin leaves a
     /// kernel out and the next does not, within 7e-3 (tests/unit/bank_test.cpp).
     static constexpr int binsPerOctave = 8;
-    /// The table spans footprints (rms radius of the widest channel) of 2^firstOctave to 2^lastOctave px. Below, every
-    /// channel is the identity; above, every channel that is at most 16 times narrower is wider than the bank.
-    static constexpr int firstOctave = -4;
-    static constexpr int lastOctave = 10;
+    /// Bins stand at the same scales for every profile: 2^firstOctave to 2^lastOctave px/mm, which is pixels of a metre to
+    /// those of 61 nm. Scales beyond have the mixture of the first or the last.
+    static constexpr int firstOctave = -10;
+    static constexpr int lastOctave = 14;
     static constexpr int binCount = (lastOctave - firstOctave) * binsPerOctave + 1;
     /// Half floats per bin: kernel 0 red, green, blue, kernel 1 red … (48 bytes).
     static constexpr int halvesPerBin = 3 * bankSize;
 
     explicit BankTable(const Profile& profile);
 
-    /// bin = binsPerOctave · log2(px/mm) − firstBin(), clamped to [0, binCount − 1]. Bins stand at the same scales for
-    /// every profile, so the span above is met within half a bin.
-    int firstBin() const { return firstBin_; }
-    /// binCount · halvesPerBin IEEE half floats.
+    /// binCount · halvesPerBin IEEE half floats. The bin at a scale is binsPerOctave · (log2(px/mm) − firstOctave).
     std::span<const std::uint16_t> halves() const { return halves_; }
     /// The weights as the shader interpolates them.
     BankWeights at(double pixelsPerMillimeter) const;
 
 private:
-    int firstBin_ = 0;
     std::vector<std::uint16_t> halves_;
 };
 
