@@ -1,6 +1,6 @@
 // What the effect is made of, as data: techniques, their passes and what lies between these. Set layouts, allocations,
 // barriers, labels, timestamps and costs follow from this. A new technique is a folder: its shaders, and one .cpp that
-// defines a Technique, which stands in the table of techniques.cpp.
+// defines a Technique, which stands in the table of technique_table.cpp.
 #pragma once
 
 #include "interface/blocks.h"
@@ -36,7 +36,7 @@ struct Intermediate {
 
 /// Light after a pass over rows, of every technique with such a pass.
 inline constexpr Intermediate rowsIntermediate{.number = intermediateRows,
-                                               .name = "nacre separable rows",
+                                               .name = "nacre rows",
                                                .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                .extent = [](VkExtent2D extent) { return extent; }};
 
@@ -119,7 +119,7 @@ struct Technique {
 extern const Technique transmitTechnique;
 
 /// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
-inline constexpr std::size_t scatterTechniqueCount = 6;
+inline constexpr std::size_t scatterTechniqueCount = NACRE_TECHNIQUE_COUNT - 1;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;

@@ -24,8 +24,11 @@ template <typename Body> NacreResult guarded(const NacreMessages* messages, Body
 }
 
 const Technique& techniqueOf(NacreTechnique technique) {
+    if (technique == NACRE_TECHNIQUE_TRANSMIT) {
+        return transmitTechnique;
+    }
     const NacreTechnique chosen = technique == NACRE_TECHNIQUE_DEFAULT ? defaultTechnique : technique;
-    if (chosen < 1 || static_cast<std::size_t>(chosen) > techniqueCount) {
+    if (chosen < 1 || static_cast<std::size_t>(chosen) > scatterTechniqueCount) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "technique is ", static_cast<int>(technique),
              ", must be a NacreTechnique or NACRE_TECHNIQUE_TRANSMIT");
     }
@@ -33,7 +36,7 @@ const Technique& techniqueOf(NacreTechnique technique) {
     checkBuilt(index, "technique");
     return *techniques[index];
 }
-static_assert(NACRE_TECHNIQUE_TRANSMIT == static_cast<int>(transmitIndex) + 1);
+static_assert(NACRE_TECHNIQUE_TRANSMIT >= NACRE_TECHNIQUE_COUNT);
 
 void checkExtent(VkExtent2D extent, const char* field) {
     if (extent.width == 0 || extent.height == 0 || extent.width > largestExtent.width ||

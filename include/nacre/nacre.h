@@ -108,6 +108,7 @@ typedef enum NacreTechnique {
     NACRE_TECHNIQUE_BANK_SURFACES = 6, /**< NACRE_TECHNIQUE_BANK that keeps two surfaces where one is in front of another:
                                             more accurate at folds and thin parts, and slower there. Materials may ask
                                             for it (NacreMaterial::secondSurfaces) */
+    NACRE_TECHNIQUE_COUNT = 7,     /**< one more than the last */
     NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
 } NacreTechnique;
 

@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 /** Transmission, which the functions below take beside the techniques of scatter. */
-#define NACRE_TECHNIQUE_TRANSMIT ((NacreTechnique)7)
+#define NACRE_TECHNIQUE_TRANSMIT ((NacreTechnique)0x1000)
 
 /** Where messages go. */
 typedef struct NacreMessages {

@@ -5,6 +5,8 @@
 #include "tests/gpu/support/parts_engine.hpp"
 
 #include <limits>
+#include <map>
+#include <set>
 
 using namespace nacre;
 using namespace nacre::tests;
@@ -293,6 +295,32 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
         EXPECT_EQ(block, before) << one.text;
         EXPECT_EQ(one.call(nullptr, block.data()), one.result) << "silent";
     }
+}
+
+/// Techniques share a set layout, so that a binding has one meaning; and each is named and listed once.
+TEST(Techniques, AreListedOnceAndAgreeOnBindings) {
+    std::uint32_t count = 0;
+    ASSERT_EQ(nacreGetTechniques(&count, nullptr), NACRE_SUCCESS);
+    std::vector<NacreTechnique> techniques(count);
+    ASSERT_EQ(nacreGetTechniques(&count, techniques.data()), NACRE_SUCCESS);
+    EXPECT_EQ(techniques.size(), NACRE_TECHNIQUE_COUNT - 1u);
+    std::map<std::uint32_t, std::string> meanings;
+    std::set<std::string> names{"unknown", nacreTechniqueString(NACRE_TECHNIQUE_DEFAULT)};
+    for (const NacreTechnique technique : techniques) {
+        EXPECT_TRUE(names.insert(nacreTechniqueString(technique)).second) << technique;
+        NacreBinding bindings[32];
+        std::uint32_t bindingCount = 32;
+        ASSERT_EQ(nacreGetBindings(technique, extent, &bindingCount, bindings), NACRE_SUCCESS);
+        for (const NacreBinding& binding : std::span(bindings, bindingCount)) {
+            const auto& [number, name] = *meanings.emplace(binding.binding, binding.name).first;
+            EXPECT_EQ(name, binding.name) << "binding " << number;
+        }
+    }
+    std::uint32_t few = 2;
+    EXPECT_EQ(nacreGetTechniques(&few, techniques.data()), NACRE_ERROR_LIMIT_EXCEEDED);
+    EXPECT_EQ(few, 2u);
+    EXPECT_EQ(nacreGetTechniques(nullptr, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(nacreTechniqueString(NACRE_TECHNIQUE_COUNT), "unknown");
 }
 
 } // namespace
