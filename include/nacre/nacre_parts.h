@@ -17,14 +17,14 @@
  *            Those with perMaterial come last and run together, once for every slot, which is pushed.
  *  barriers  Between two passes where the later one reads or writes what an earlier one wrote, or writes what it read:
  *            from compute shader writes to compute shader reads and writes and to indirect arguments; these only before
- *            the first pass with an indirectBinding, since waiting for them takes longer. Before
- *            the first pass the same, against the call before that used these intermediates. They need no contents to
- *            begin with.
+ *            the first pass with an indirectBinding, since waiting for them takes longer. Before the first pass the
+ *            same, against the call before that used these intermediates. They need no contents to begin with.
  *  images    As in nacre.h, at their binding, in a layout of yours; outputs and intermediates are written as storage
  *            images. Where an optional image is not given any other sampled image stands in, and is not read; for
  *            "thicknessOut" the output does, and for shadow maps that are not given any 2D array image.
  *
- * Blocks are laid out as the structures of interface/blocks.h among the shaders (C++ and GLSL), which say what is in them.
+ * Blocks are laid out as the structures of interface/blocks.h and of each technique's ..._blocks.h among the shaders (C++ and
+ * GLSL), which say what is in them.
  */
 #ifndef NACRE_PARTS_H
 #define NACRE_PARTS_H
