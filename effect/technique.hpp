@@ -118,7 +118,7 @@ struct Technique {
 
 extern const Technique transmitTechnique;
 
-/// Every technique the tables know: scatterTechniques[NacreTechnique - 1], then transmit.
+/// The index of a technique of scatter is NacreTechnique - 1; transmission comes last.
 inline constexpr std::size_t scatterTechniqueCount = NACRE_TECHNIQUE_COUNT - 1;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
 inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
