@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$1"
 shift
-names=$(find core effect include renderer scene app tests cmake scripts -type f | grep -vE '/(CMakeLists\.txt|README\.md)$|^tests/data/')
+names=$(find . -mindepth 2 -type f -not -path './.*' -not -path './build*' -not -path './out/*' | sed 's|^\./||' | grep -vE '/(CMakeLists\.txt|README\.md)$|^(docs|scenes|examples|tests/data)/')
 repeated=$(sed 's|.*/||' <<< "$names" | sort | uniq -d)
 failed=0
 for name in $repeated; do

@@ -15,8 +15,9 @@ for technique in "$@"; do
     fi
     # As an enumerator, an object, a name, a file or a folder.
     names="NACRE_TECHNIQUE_${technique^^}\b|\b${technique}Technique\b|\"$technique\"|\bscatter_$technique|\b$technique(/|\.cmake)"
-    files=$(grep -rlE "$names" CMakeLists.txt cmake core effect examples include renderer scene app |
-        grep -vE "^($folder|(app/)?bench)/" || true)
+    files=$(grep -rlE "$names" --include='*.h' --include='*.hpp' --include='*.cpp' --include='*.c' --include='*.glsl' \
+        --include='*.comp' --include='*.cmake' --include=CMakeLists.txt --exclude-dir='build*' --exclude-dir='.*' -- * |
+        grep -vE "^($folder|bench|docs|tests|out)/" || true)
     echo "$technique: $folder, and" $files
     if [ "$(wc -w <<< "$files")" -gt $most ]; then
         echo "technique_files.sh: $technique stands in more than $most files beside its folder" >&2
