@@ -37,7 +37,7 @@ double psnr(const Pixels& image, const Pixels& reference, const Pixels& material
 }
 
 struct Target {
-    Technique technique;
+    NacreTechnique technique;
     const char* name;
 };
 constexpr Target targets[] = {{NACRE_TECHNIQUE_SEPARABLE, "separable"},
