@@ -40,7 +40,7 @@ inline constexpr Intermediate rowsIntermediate{.number = intermediateRows,
                                                .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                .extent = [](VkExtent2D extent) { return extent; }};
 
-/// One compute dispatch.
+/// One compute dispatch, or several of one pipeline.
 struct Pass {
     static constexpr std::uint32_t notIndirect = ~0u;
     constexpr bool isIndirect() const { return indirect != notIndirect; }
@@ -55,6 +55,8 @@ struct Pass {
     IntermediateSet writes = 0;
     /// Workgroups for a render area, in px.
     VkExtent3D (*grid)(VkExtent2D area) = nullptr;
+    /// How often it is dispatched, one after the other; the dispatch's number, from 0, is pushed. Null = once, without.
+    std::uint32_t (*repeats)(VkExtent2D area) = nullptr;
     /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this intermediate.
     std::uint32_t indirect = notIndirect;
     VkDeviceSize indirectOffset = 0;
@@ -78,6 +80,11 @@ inline constexpr std::size_t variantCount = 4;
 constexpr Variant variantsOf(const Pass& pass) {
     return (pass.hasSeparateMaterials ? separateMaterials : 0) | (pass.hasSeveralShadowMaps ? severalShadowMaps : 0) |
            (pass.hasAlbedoOrStrength ? albedoOrStrength : 0);
+}
+
+/// Dispatches of a pass for a render area.
+inline std::uint32_t repeatsOf(const Pass& pass, VkExtent2D area) {
+    return pass.repeats ? pass.repeats(area) : 1;
 }
 
 /// A grid of one workgroup per width × height px.

@@ -220,8 +220,10 @@ NacreCost costOf(const Context& context, std::size_t technique) {
     const std::span<const char* const> names = passNames(technique);
     NacreCost cost{};
     cost.dispatchesPerMaterial = static_cast<std::uint32_t>(techniques[technique]->materialPasses.size());
-    cost.dispatchCount = static_cast<std::uint32_t>(techniques[technique]->passes.size()) +
-                         cost.dispatchesPerMaterial * context.materials->setCount();
+    cost.dispatchCount = cost.dispatchesPerMaterial * context.materials->setCount();
+    for (const Pass& pass : techniques[technique]->passes) {
+        cost.dispatchCount += repeatsOf(pass, context.maxExtent);
+    }
     cost.passCount = static_cast<std::uint32_t>(names.size());
     cost.passNames = names.data();
     for (std::size_t i = 0; i < maxIntermediates; ++i) {

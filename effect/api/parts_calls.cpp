@@ -86,6 +86,7 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.reads = bindingBits(pass.reads);
     result.writes = bindingBits(pass.writes);
     result.perMaterial = perMaterial;
+    result.repeats = repeatsOf(pass, area);
     result.hasSeparateMaterials = pass.hasSeparateMaterials;
     result.hasSeveralShadowMaps = pass.hasSeveralShadowMaps;
     result.hasAlbedoOrStrength = pass.hasAlbedoOrStrength;

@@ -183,15 +183,24 @@ void recordPasses(const PassRecording& recording) {
     };
     const std::span pipelines(recording.context.pipelines[recording.technique]);
     const auto passCount = static_cast<std::uint32_t>(technique.passes.size());
+    const auto push = [&](std::uint32_t value) {
+        vk.CmdPushConstants(recording.commandBuffer, recording.callLayout.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                            sizeof(value), &value);
+    };
     for (std::uint32_t i = 0; i < passCount; ++i) {
         const Pass& pass = technique.passes[i];
-        record(pass, pipelines[i][recording.variant & variantsOf(pass)]);
+        const std::uint32_t repeats = repeatsOf(pass, recording.area);
+        for (std::uint32_t repeat = 0; repeat < repeats; ++repeat) {
+            if (pass.repeats) {
+                push(repeat);
+            }
+            record(pass, pipelines[i][recording.variant & variantsOf(pass)]);
+        }
         timestamp(recording, i + 1);
     }
     if (!technique.materialPasses.empty()) {
         for (std::uint32_t slot = 1; slot <= recording.materialCount; ++slot) {
-            vk.CmdPushConstants(recording.commandBuffer, recording.callLayout.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT,
-                                0, sizeof(slot), &slot);
+            push(slot);
             for (std::size_t i = 0; i < technique.materialPasses.size(); ++i) {
                 record(technique.materialPasses[i],
                        recording.baked ? recording.context.bakedPasses[i] : pipelines[passCount + i][0]);

@@ -357,9 +357,11 @@ typedef struct NacreTransmitInfo {
 /** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers and, but for
  *  dispatchesPerMaterial, of materials. */
 typedef struct NacreCost {
-    uint32_t dispatchCount;         /**< with the materials set so far, as everything here */
+    uint32_t dispatchCount;         /**< with the materials set so far, as everything here, and a render area of maxExtent;
+                                         a baseline may take more of them for a larger area */
     uint32_t dispatchesPerMaterial; /**< how many of them each material takes; 0 but for a baseline */
-    uint32_t passCount;             /**< what is timed: one a dispatch; all of dispatchesPerMaterial together are one */
+    uint32_t passCount;             /**< what is timed: one a dispatch; all of dispatchesPerMaterial together are one, and
+                                         so are all dispatches of a pass that is repeated */
     const char* const* passNames; /**< static storage */
     VkDeviceSize intermediateBytes; /**< device memory of the images and buffers between its passes, at maxExtent */
     VkDeviceSize materialBytes;     /**< device memory its tables take per material and frame in flight */

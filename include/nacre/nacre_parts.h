@@ -7,8 +7,8 @@
  *
  * HOW
  *  set up    nacreGetBindings lists descriptor set 0 of a technique, nacreGetPasses its compute passes: SPIR-V, or the name
- *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial, a
- *            push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps or
+ *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial or
+ *            several repeats, a push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps or
  *            hasAlbedoOrStrength takes two pipelines; with two of these, four.
  *  materials The buffer "materials" starts with 65536 uint32_t: the slot of every material id, 0 where none is set. Slots
  *            count from 1. nacreFillMaterial fills a slot's element there, nacreFillTable its element of "tables".
@@ -75,6 +75,8 @@ typedef struct NacrePass {
     uint32_t reads;              /**< intermediates, bits 1u << NacreBinding::binding */
     uint32_t writes;             /**< likewise */
     VkBool32 perMaterial;        /**< run for every material's slot */
+    uint32_t repeats;            /**< dispatches of it for this area, a barrier before each but the first; their number,
+                                      from 0, is pushed where there are several. At least 1 */
     VkBool32 hasSeparateMaterials; /**< has the specialization constant 0, a VkBool32, by default VK_FALSE: VK_TRUE in the
                                       pipeline for frames where some materials that are set share no exchange group with
                                       some others; the one without is quicker */

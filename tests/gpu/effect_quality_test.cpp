@@ -61,6 +61,42 @@ TEST_P(QualityTest, BruteAgainstDoublePrecisionAndSeparableAgainstBrute) {
     EXPECT_GE(separableQuality, 38);
 }
 
+// A receiver whose window is the whole picture, more pixels than the loops of a software device may turn (65,535). Few
+// pixels have a material, so that the sum stays quick.
+TEST_F(GpuTest, BruteSumsWindowsOfMorePixelsThanALoopMayTurn) {
+    constexpr int every = 16;
+    ScatterScene scene = makeScatterScene(
+        {.kind = SceneKind::Plane, .footprint = 500, .width = 400, .height = 240, .materials = {marble()}});
+    for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+            std::uint8_t& id = scene.materialId[scene.index(x, y)];
+            id = x % every == y / every % every && y % every == 0 ? id : 0;
+            // Light that differs from top to bottom: a sum that lacks rows is another.
+            const double light = y < scene.height / 2 ? 0.2 : 1.0;
+            scene.irradiance[scene.index(x, y)] = {light, light, light};
+        }
+    }
+    NacreContextInfo info =
+        gpu.contextInfo({static_cast<std::uint32_t>(scene.width), static_cast<std::uint32_t>(scene.height)});
+    info.techniques = 1u << NACRE_TECHNIQUE_BRUTE;
+    Effect effect(gpu, info);
+    effect.setMaterials(scene.materials);
+    const ScatterInput input = toInput(scene);
+    NacreCost cost{};
+    ASSERT_EQ(nacreGetScatterCost(effect.context, NACRE_TECHNIQUE_BRUTE, &cost), NACRE_SUCCESS);
+    EXPECT_EQ(cost.passCount, 2u);
+    EXPECT_EQ(cost.dispatchCount, 1u + 3u) << "96,000 pixels in bands of 32,768";
+    std::vector<Rgb> image;
+    for (const Float4& pixel : effect.scatter(input, NACRE_TECHNIQUE_BRUTE)) {
+        image.push_back({pixel[0], pixel[1], pixel[2]});
+    }
+    const std::vector<ReferencePixel> reference = scatterReference(scene, 1);
+    const double quality = psnr(scene, reference, image);
+    std::cout << reference.size() << " receivers: brute against double precision " << quality << " dB\n";
+    EXPECT_GE(reference.size(), 300u);
+    EXPECT_GE(quality, 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, QualityTest,
                          testing::Combine(testing::ValuesIn(tunedSceneKinds), testing::Values(4.0, 20.0, 60.0)));
 

@@ -38,7 +38,15 @@ constexpr Intermediate bruteIntermediates[] = {
     {.number = intermediatePixels,
      .name = "nacre brute pixels",
      .bytes = [](VkExtent2D extent) { return VkDeviceSize{sizeof(BrutePixel)} * extent.width * extent.height; }},
+    {.number = intermediateSums,
+     .name = "nacre brute sums",
+     .bytes = [](VkExtent2D extent) { return VkDeviceSize{sizeof(BruteSum)} * extent.width * extent.height; }},
 };
+
+std::uint32_t bands(VkExtent2D area) {
+    const std::uint32_t rows = bruteBandRows(area.width);
+    return (area.height + rows - 1) / rows;
+}
 
 constexpr Pass passes[] = {
     {.name = "nacre brute pixels",
@@ -49,8 +57,10 @@ constexpr Pass passes[] = {
     {.name = "nacre brute gather",
      .file = "scatter_brute_gather",
      .spirv = scatter_brute_gather_spv,
-     .reads = bit(intermediatePixels),
-     .grid = tiles<8, 8>},
+     .reads = bit(intermediatePixels) | bit(intermediateSums),
+     .writes = bit(intermediateSums),
+     .grid = tiles<8, 8>,
+     .repeats = bands},
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 // Second pass of `brute`: sum over every pixel within the radius of R(distance)·area·light, divided by that of
-// R(distance)·area. A pixel's surface is a flat patch, lit evenly. Within cellRadius px the profile varies on a patch:
+// R(distance)·area. Each of its dispatches adds one band of rows (bruteBandRows). A pixel's surface is a flat patch, lit evenly. Within cellRadius px the profile varies on a patch:
 // there its integral over the patch is taken; further out its value at the pixel's centre, from the radial table.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,6 +13,12 @@ layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
 };
 layout(set = 0, binding = bindingIntermediates + intermediatePixels, std430) readonly buffer Pixels {
     BrutePixel pixels[];
+};
+layout(set = 0, binding = bindingIntermediates + intermediateSums, std430) buffer Sums {
+    BruteSum sums[];
+};
+layout(push_constant) uniform Dispatch {
+    uint band;
 };
 
 // [px] Half width of the square whose patches are integrated. A Gaussian of 2 px, the narrowest whose values at pixel
@@ -152,17 +158,29 @@ vec3 radialAt(uint material, float share) {
     return mix(tables[material].radial[index].rgb, tables[material].radial[index + 1u].rgb, position - float(index));
 }
 
-// The pixels outside the square.
-void addFar(Receiver receiver, float radius, inout Sum sum) {
+// The rows and columns of the area that lie within the radius, relative to the receiver, and its reach in px.
+struct Window {
+    ivec2 low, high;
+    vec2 reach;
+};
+
+Window windowOf(Receiver receiver, float radius) {
     // Pixels per radius where the surface is nearest to the camera within it.
     float nearest = min(receiver.position.z + radius, 0.5 * receiver.position.z);
-    vec2 reach = ceil(radius / vec2(length(stepX(nearest)), length(stepY(nearest))));
-    ivec2 low = max(receiver.local - ivec2(min(reach, vec2(32768.0))), ivec2(0)) - receiver.local;
-    ivec2 high = min(receiver.local + ivec2(min(reach, vec2(32768.0))), view.areaExtent - 1) - receiver.local;
-    for (int y = low.y; y <= high.y; ++y) {
-        float height = float(y) / reach.y;
-        int halfWidth = int(ceil(reach.x * sqrt(max(1.0 - height * height, 0.0))));
-        for (int x = max(low.x, -halfWidth); x <= min(high.x, halfWidth); ++x) {
+    Window window;
+    window.reach = ceil(radius / vec2(length(stepX(nearest)), length(stepY(nearest))));
+    ivec2 reach = ivec2(min(window.reach, vec2(32768.0)));
+    window.low = max(-reach, -receiver.local);
+    window.high = min(reach, view.areaExtent - 1 - receiver.local);
+    return window;
+}
+
+// The pixels of the window that are outside the square.
+void addFar(Receiver receiver, Window window, float radius, inout Sum sum) {
+    for (int y = window.low.y; y <= window.high.y; ++y) {
+        float height = float(y) / window.reach.y;
+        int halfWidth = int(ceil(window.reach.x * sqrt(max(1.0 - height * height, 0.0))));
+        for (int x = max(window.low.x, -halfWidth); x <= min(window.high.x, halfWidth); ++x) {
             if (max(abs(x), abs(y)) <= cellRadius) {
                 continue;
             }
@@ -177,6 +195,19 @@ void addFar(Receiver receiver, float radius, inout Sum sum) {
     }
 }
 
+// The patches around the receiver.
+Sum nearSum(Receiver receiver) {
+    Sum sum = Sum(vec3(0.0), vec3(0.0));
+    uint layerCount = uint(tables[receiver.material].meanFreePath.w);
+    for (uint layer = 0u; layer < layerCount; ++layer) {
+        addLayer(receiver, tables[receiver.material].layers[layer], sum);
+    }
+    if (layerCount == 0u) {
+        addBurley(receiver, tables[receiver.material].meanFreePath.rgb, sum);
+    }
+    return sum;
+}
+
 void main() {
     ivec2 local = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(local, view.areaExtent))) {
@@ -186,20 +217,31 @@ void main() {
     uint material = materialAt(pixel);
     float z = viewZ(pixel);
     if (material == 0u || !isValidZ(z) || strengthAt(pixel, material) == 0.0) {
-        writeUnscattered(pixel, material);
+        if (band == 0u) {
+            writeUnscattered(pixel, material);
+        }
         return;
     }
     Receiver receiver = Receiver(local, material, viewPosition(pixel, z));
-    Sum sum = Sum(vec3(0.0), vec3(0.0));
-    uint layerCount = uint(tables[material].meanFreePath.w);
-    for (uint layer = 0u; layer < layerCount; ++layer) {
-        addLayer(receiver, tables[material].layers[layer], sum);
+    int rows = int(bruteBandRows(uint(view.areaExtent.x)));
+    int firstRow = int(band) * rows;
+    bool isLast = firstRow + rows >= view.areaExtent.y;
+    float radius = materials[material].radius;
+    Window window = windowOf(receiver, radius);
+    window.low.y = max(window.low.y, firstRow - local.y);
+    window.high.y = min(window.high.y, firstRow + rows - 1 - local.y);
+    bool adds = radius > 0.0 && window.low.y <= window.high.y;
+    if (band != 0u && !isLast && !adds) {
+        return;
     }
-    if (layerCount == 0u) {
-        addBurley(receiver, tables[material].meanFreePath.rgb, sum);
+    int index = local.y * view.areaExtent.x + local.x;
+    Sum sum = band == 0u ? nearSum(receiver) : Sum(sums[index].light.rgb, sums[index].weight.rgb);
+    if (adds) {
+        addFar(receiver, window, radius, sum);
     }
-    if (materials[material].radius > 0.0) {
-        addFar(receiver, materials[material].radius, sum);
+    if (isLast) {
+        writeScattered(pixel, material, sum.light / max(sum.weight, vec3(1e-30)));
+    } else {
+        sums[index] = BruteSum(vec4(sum.light, 0.0), vec4(sum.weight, 0.0));
     }
-    writeScattered(pixel, material, sum.light / max(sum.weight, vec3(1e-30)));
 }

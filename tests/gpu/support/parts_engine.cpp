@@ -308,6 +308,9 @@ void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, s
     // [snippet: parts-passes]
     std::uint32_t read = 0;
     std::uint32_t written = ~0u; // by the call before
+    const auto push = [&](std::uint32_t value) {
+        vkCmdPushConstants(commandBuffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(value), &value);
+    };
     const auto dispatch = [&](std::size_t i) {
         const NacrePass& pass = passes[i];
         if (((pass.reads | pass.writes) & written) != 0 || (pass.writes & read) != 0) {
@@ -325,10 +328,13 @@ void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, s
     };
     std::size_t first = 0; // of the passes that run for every material
     for (; first < count && !passes[first].perMaterial; ++first) {
-        dispatch(first);
+        for (std::uint32_t repeat = 0; repeat < passes[first].repeats; ++repeat) {
+            push(repeat);
+            dispatch(first);
+        }
     }
     for (std::uint32_t slot = 1; slot <= slotCount_ && first < count; ++slot) {
-        vkCmdPushConstants(commandBuffer, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(slot), &slot);
+        push(slot);
         for (std::size_t i = first; i < count; ++i) {
             dispatch(i);
         }
