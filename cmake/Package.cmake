@@ -20,7 +20,7 @@ if(BUILD_SHARED_LIBS)
     endif()
 endif()
 
-if(NOT NACRE_INSTALL)
+if(NOT NACRE_INSTALL OR NACRE_DEVELOPER) # a developer build's shaders are in its build folder
     return()
 endif()
 

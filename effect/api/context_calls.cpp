@@ -150,7 +150,8 @@ std::uint32_t recordCount(const NacreContextInfo& info) {
 
 void create(Context& context, const NacreContextInfo& info) {
     prepare(context, info, frameCount(info), recordCount(info));
-    createPipelines(context, info.pipelineCache);
+    createLayouts(context);
+    context.pipelines = createPipelines(context, info.pipelineCache);
     context.givenMemory = info.deviceMemory;
     context.intermediateMemory = layOut(context.device, context.intermediates)
                                      .place(MemoryUse::Device, info.deviceMemory, "NacreContextInfo::deviceMemory");

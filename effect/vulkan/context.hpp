@@ -25,8 +25,8 @@ struct Context {
 
     CallLayout scatter;
     CallLayout transmit;
-    std::array<std::vector<PassPipelines>, techniqueCount> pipelines; ///< of the passes, then of materialPasses
-    std::vector<Owned<VkPipeline>> bakedPasses;                       ///< of nacreBakeThesisKernel; empty = not baked
+    TechniquePipelines pipelines;
+    std::vector<Owned<VkPipeline>> bakedPasses; ///< of nacreBakeThesisKernel; empty = not baked
     std::uint32_t bakedRadius = 0;
     NacreMemory givenMemory{};                ///< the caller's, for the intermediates
     Owned<VkDeviceMemory> intermediateMemory; ///< else this

@@ -37,9 +37,11 @@ void createLayout(Context& context, CallLayout& callLayout, CallKind kind) {
 
 Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache,
                                  const VkSpecializationInfo* constants) {
+    std::vector<std::uint32_t> storage;
+    const std::span<const std::uint32_t> spirv = currentSpirv(pass, storage);
     VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    moduleInfo.codeSize = pass.spirv.size_bytes();
-    moduleInfo.pCode = pass.spirv.data();
+    moduleInfo.codeSize = spirv.size_bytes();
+    moduleInfo.pCode = spirv.data();
     VkShaderModule handle = VK_NULL_HANDLE;
     check(device.vk.CreateShaderModule(device.handle, &moduleInfo, device.allocator, &handle), "vkCreateShaderModule");
     const Owned<VkShaderModule> module{device, handle, device.vk.DestroyShaderModule};
@@ -78,9 +80,13 @@ PassPipelines createVariants(const Device& device, VkPipelineLayout layout, cons
 
 } // namespace
 
-void createPipelines(Context& context, VkPipelineCache cache) {
+void createLayouts(Context& context) {
     createLayout(context, context.scatter, CallKind::Scatter);
     createLayout(context, context.transmit, CallKind::Transmit);
+}
+
+TechniquePipelines createPipelines(const Context& context, VkPipelineCache cache) {
+    TechniquePipelines pipelines;
     for (std::size_t i = 0; i < techniqueCount; ++i) {
         if (!context.enabled[i]) {
             continue;
@@ -89,11 +95,15 @@ void createPipelines(Context& context, VkPipelineCache cache) {
         const VkPipelineLayout layout = callLayout.layout.get();
         for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
             for (Pass pass : part) {
-                pass.spirv = context.shaderFloat16 && !pass.halfSpirv.empty() ? pass.halfSpirv : pass.spirv;
-                context.pipelines[i].push_back(createVariants(context.device, layout, pass, cache));
+                if (context.shaderFloat16 && pass.halfFile) {
+                    pass.file = pass.halfFile;
+                    pass.spirv = pass.halfSpirv;
+                }
+                pipelines[i].push_back(createVariants(context.device, layout, pass, cache));
             }
         }
     }
+    return pipelines;
 }
 
 } // namespace nacre::effect

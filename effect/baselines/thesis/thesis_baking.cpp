@@ -19,7 +19,7 @@ struct KernelConstants {
     vec4 taps[thesisMaxRadius + 1];
 };
 
-Owned<VkPipeline> bakePass(const Context& context, const Pass& pass, std::span<const std::uint32_t> spirv,
+Owned<VkPipeline> bakePass(const Context& context, const Pass& pass, const EmbeddedShader& shader,
                            const KernelConstants& constants) {
     constexpr std::uint32_t count = sizeof(KernelConstants) / sizeof(float);
     std::array<VkSpecializationMapEntry, count> entries;
@@ -28,7 +28,8 @@ Owned<VkPipeline> bakePass(const Context& context, const Pass& pass, std::span<c
     }
     const VkSpecializationInfo info{count, entries.data(), sizeof(constants), &constants};
     Pass baked = pass;
-    baked.spirv = spirv;
+    baked.file = shader.name;
+    baked.spirv = shader;
     return createPipeline(context.device, context.scatter.layout.get(), baked, VK_NULL_HANDLE, &info);
 }
 
