@@ -131,6 +131,7 @@ protected:
             {.format = VK_FORMAT_R32_SFLOAT, .extent = input.extent, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
         NacreContextInfo context = gpu.contextInfo(input.extent);
         context.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
+        context.maxLights = static_cast<std::uint32_t>(lights.size());
         Effect effect(gpu, context);
         EXPECT_EQ(nacreSetMaterials(effect.context, 1, 1, &material), NACRE_SUCCESS);
         EXPECT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
@@ -254,6 +255,34 @@ TEST_F(TransmitTest, LightsAddUp) {
     const Result all = transmit(opaqueTo(skin()), lights, maps);
     for (std::size_t i = 0; i < sum.size(); ++i) {
         ASSERT_NEAR(all.light[i][0], sum[i][0], 1e-4f * sum[i][0]);
+    }
+}
+
+// As many lights as a context takes, with several shadow maps: the loops of a software device end after 65,535 turns.
+TEST_F(TransmitTest, AsManyLightsAsThereMayBeAddUp) {
+    constexpr std::uint32_t lightCount = 1024;
+    const Slab slab{.thickness = 1.5};
+    const NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+    const GpuImage map = shadowMap(source, slab);
+    const NacreImage maps[] = {map.nacre(), map.nacre()};
+    std::vector<NacreLight> lights(lightCount, source);
+    for (std::uint32_t i = 0; i < lightCount; ++i) {
+        lights[i].shadowMap = i % 2;
+        for (float& irradiance : lights[i].irradiance) {
+            irradiance /= lightCount;
+        }
+    }
+    Material material = skin();
+    constexpr double share = 1.0 / NACRE_MAX_LAYERS;
+    material.layers.assign(NACRE_MAX_LAYERS, {{share, share, share}, 4});
+    for (const VkBool32 thesis : {VK_FALSE, VK_TRUE}) {
+        const NacreBaselineSettings settings{.thesisTransmittance = thesis};
+        const auto change = [&](NacreTransmitInfo& info) { info.baselines = &settings; };
+        const Result one = transmit(opaqueTo(material), {&source, 1}, maps, worldFrame, change);
+        const Result all = transmit(opaqueTo(material), lights, maps, worldFrame, change);
+        const std::size_t middle = imageSize * imageSize / 2;
+        EXPECT_GT(one.light[middle][0], 0.01f);
+        EXPECT_NEAR(all.light[middle][0], one.light[middle][0], 1e-3f * one.light[middle][0]) << thesis;
     }
 }
 
