@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every test: the whole suite optimised, then the CPU tests under AddressSanitizer and UndefinedBehaviorSanitizer,
-# then two contexts on two threads under ThreadSanitizer.
+# Every test: layout and clang-tidy, the whole suite optimised, then the CPU tests under AddressSanitizer and
+# UndefinedBehaviorSanitizer, then two contexts on two threads under ThreadSanitizer.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -13,10 +13,21 @@ run_preset() {
     cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1" --parallel "$(nproc)" | tee -a "$log"
 }
 
+# What the checks of scripts/dev find is in their output; the summary says which of them failed.
+check() {
+    echo "== $* ==" | tee -a "$log"
+    if ! "$@"; then
+        echo "$* (Failed)" | tee -a "$log"
+        status=1
+    fi
+}
+
 status=0
+check scripts/dev format --check
 for preset in release asan tsan; do
     echo "== $preset ==" | tee -a "$log"
     run_preset "$preset" || status=$?
+    [ "$preset" != release ] || check scripts/dev tidy
 done
 
 echo

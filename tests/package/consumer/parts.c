@@ -88,6 +88,7 @@ int main(void) {
 #ifdef SPIRV_DIRECTORY
     return count == 6 && nacreGetPasses(NACRE_TECHNIQUE_THESIS, area, &passCount, NULL) == NACRE_SUCCESS ? 0 : 1;
 #else
-    return count == 4 && nacreGetPasses(NACRE_TECHNIQUE_THESIS, area, &passCount, NULL) == NACRE_ERROR_UNSUPPORTED ? 0 : 1;
+    return count == 4 && nacreGetPasses(NACRE_TECHNIQUE_THESIS, area, &passCount, NULL) == NACRE_ERROR_UNSUPPORTED ? 0
+                                                                                                                   : 1;
 #endif
 }
