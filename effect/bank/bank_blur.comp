@@ -5,26 +5,28 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
+#include "bank_reduction.glsl"
 #include "bank_surfaces.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
 
 const int threads = 128;
 const ivec2 blockSize = ivec2(16, 8);
-// Of the coarsest level, whose texels are reduced twice: as many as have their children in the room of a block of the level before.
+// Of the coarsest level, whose texels are reduced twice: as many as have their children in the room of a block of the level
+// before.
 const ivec2 coarsestSize = ivec2(6, 2);
 const int reach = 2; // of the kernels, texels
 const int pitch = blockSize.x + 2 * reach;
 const int loadedCount = pitch * (blockSize.y + 2 * reach);
 
-// The block's texels with those that its kernels reach, in the words of packRaw.
+// The block's texels with those that its kernels reach, in the words of packReduced.
 shared uvec2 lights[loadedCount];
 shared float depths[loadedCount]; // 0 = empty
-shared uint massesAndMaterials[loadedCount];
+shared uint coveragesAndMaterials[loadedCount];
 // Of their second surfaces light, area and depth, 0 = none.
 shared uvec2 secondLights[secondLevels > 0 ? loadedCount : 1];
 shared float secondDepths[secondLevels > 0 ? loadedCount : 1];
-shared uint rough; // bits of roughness
+shared uint blockBits; // bits of the block, as below
 
 struct Block {
     int level;
@@ -52,18 +54,17 @@ ivec2 loadedSize(Block block) {
     return block.size + 2 * reach;
 }
 
-// Bits of a block: texels with a step beside them or pixels left out; texels that are not wholly covered; any that are
-// covered at all.
+// Bits of a block: texels with a step beside them or pixels left out; texels that are not fully covered; any that are
+// covered at all. A block with the last one alone is unbroken.
 const uint anyStep = 1u;
 const uint notFull = 2u;
 const uint anything = 4u;
 const uint anySecond = 8u; // and any that have a second surface
 
 // Of a texel by itself …
-uint roughnessOf(uvec4 words) {
-    // The mass, a half; with a sign something was left out.
-    return ((words.w & 0xffffu) == fullMass ? 0u : notFull) | ((words.w & droppedBit) != 0u ? anyStep : 0u) |
-           (words.z != 0u ? anything : 0u) | (secondLevels > 0 && (words.w & secondBit) != 0u ? anySecond : 0u);
+uint texelBits(uvec4 words) {
+    return (isFullyCovered(words.w) ? 0u : notFull) | (isDropped(words.w) ? anyStep : 0u) |
+           (words.z != 0u ? anything : 0u) | (secondLevels > 0 && hasSecond(words.w) ? anySecond : 0u);
 }
 
 int sharedIndex(ivec2 place) {
@@ -74,35 +75,35 @@ bool isStepBetween(float a, float b, float limit) {
     return min(a, b) > 0.0 && abs(a - b) > limit;
 }
 
-// … and of a 2x2 block of texels, between them and beside them, right and below.
-uint roughnessBetween(Block from, ivec2 first) {
+// … and of 2x2 texels, between them and beside them, right and below.
+uint stepBits(Block from, ivec2 first) {
     ivec2 last = loadedSize(from) - 1;
-    float block[3][3];
+    float around[3][3];
     [[unroll]] for (int y = 0; y < 3; ++y) {
         [[unroll]] for (int x = 0; x < 3; ++x) {
-            block[y][x] = depths[sharedIndex(min(first + ivec2(x, y), last))];
+            around[y][x] = depths[sharedIndex(min(first + ivec2(x, y), last))];
         }
     }
-    float depth = max(max(block[0][0], block[0][1]), max(block[1][0], block[1][1]));
+    float depth = max(max(around[0][0], around[0][1]), max(around[1][0], around[1][1]));
     float limit = bankSmoothDepth * texelWidth(from.level, depth);
     bool steps = false;
     [[unroll]] for (int y = 0; y < 2; ++y) {
         [[unroll]] for (int x = 0; x < 2; ++x) {
-            steps = steps || isStepBetween(block[y][x], block[y][x + 1], limit) ||
-                    isStepBetween(block[y][x], block[y + 1][x], limit);
+            steps = steps || isStepBetween(around[y][x], around[y][x + 1], limit) ||
+                    isStepBetween(around[y][x], around[y + 1][x], limit);
         }
     }
     return steps ? anyStep : 0u;
 }
 
-void noteRoughness(uint roughness) {
-    if (roughness != 0u) {
-        atomicOr(rough, roughness);
+void noteBits(uint bits) {
+    if (bits != 0u) {
+        atomicOr(blockBits, bits);
     }
 }
 
-RawTexel texelAt(int index) {
-    return unpackRaw(uvec4(lights[index], floatBitsToUint(depths[index]), massesAndMaterials[index]));
+ReducedTexel texelAt(int index) {
+    return unpackReduced(uvec4(lights[index], floatBitsToUint(depths[index]), coveragesAndMaterials[index]));
 }
 
 #include "bank_blur_load.glsl"
@@ -116,27 +117,27 @@ bool isStep(int neighbor, float depth, float limit) {
 // Where a texel's kernel stands: its own surface or, where it is empty, its neighbours', so that light reaches across
 // small holes.
 BlurredTexel findSurface(int level, int center) {
-    RawTexel own = texelAt(center);
-    BlurredTexel result = BlurredTexel(vec3(0.0), 0.0, own.depth, own.material, own.mass > 0.0, own.dropped);
+    ReducedTexel own = texelAt(center);
+    BlurredTexel result = BlurredTexel(vec3(0.0), 0.0, own.depth, own.material, own.coverage > 0.0, own.dropped);
     if (!result.present) {
-        float mass = 0.0;
+        float coverage = 0.0;
         float heaviest = 0.0;
         for (int i = 0; i < 9; ++i) {
-            RawTexel tap = texelAt(center + i % 3 - 1 + (i / 3 - 1) * pitch);
-            mass += tap.mass;
-            result.depth += tap.mass * tap.depth;
-            if (tap.mass > heaviest) {
-                heaviest = tap.mass;
+            ReducedTexel tap = texelAt(center + i % 3 - 1 + (i / 3 - 1) * pitch);
+            coverage += tap.coverage;
+            result.depth += tap.coverage * tap.depth;
+            if (tap.coverage > heaviest) {
+                heaviest = tap.coverage;
                 result.material = tap.material;
             }
         }
-        result.present = mass > 0.0;
-        result.depth /= max(mass, 1e-20);
+        result.present = coverage > 0.0;
+        result.depth /= max(coverage, 1e-20);
     }
     float limit = bankSmoothDepth * texelWidth(level, result.depth);
     bool stepX = isStep(center - 1, result.depth, limit) || isStep(center + 1, result.depth, limit);
     bool stepY = isStep(center - pitch, result.depth, limit) || isStep(center + pitch, result.depth, limit);
-    result.rough = result.rough || stepX || stepY;
+    result.stepped = result.stepped || stepX || stepY;
     return result;
 }
 
@@ -159,14 +160,14 @@ const float blurDepthVariance = secondLevels > 0 ? bankSecondBlurDepthVariance :
 // Blurs along a surface, whatever is around the texel.
 BlurredTexel blurAlong(BlurredTexel surface, int level, int center) {
     float scale = depthScale(texelWidth(level, surface.depth), blurDepthVariance);
-    bool seconds = secondLevels > 0 && (rough & anySecond) != 0u;
+    bool seconds = secondLevels > 0 && (blockBits & anySecond) != 0u;
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
             int index = center + x + y * pitch;
             float kernel = kernelTaps[abs(x)] * kernelTaps[abs(y)];
             if (separateMaterials) {
-                kernel = exchanges(massesAndMaterials[index] >> 16, surface.material) ? kernel : 0.0;
+                kernel = exchanges(materialOf(coveragesAndMaterials[index]), surface.material) ? kernel : 0.0;
             }
             addTap(sum, unpackTap(lights[index]), depths[index] - surface.depth, kernel, scale);
         }
@@ -176,27 +177,27 @@ BlurredTexel blurAlong(BlurredTexel surface, int level, int center) {
             addTap(sum, unpackTap(secondLights[index]), secondDepths[index] - surface.depth, kernel, scale);
         }
     }
-    surface.mass = unpackHalf2x16(packHalf2x16(vec2(massOf(sum.w), 0.0))).x; // as it is stored
-    surface.light = sum.rgb * (surface.mass / max(sum.w, bankLeastWeight));
+    surface.coverage = unpackHalf2x16(packHalf2x16(vec2(coverageOf(sum.w), 0.0))).x; // as it is stored
+    surface.light = sum.rgb * (surface.coverage / max(sum.w, bankLeastWeight));
     return surface;
 }
 
-// Where a plain texel's kernel stands, and what scales squared depth differences from there.
-struct PlainCenter {
+// Where the kernel of a texel of an unbroken block stands, and what scales squared depth differences from there.
+struct UnbrokenCenter {
     float depth;
     float scale;
 };
 
-PlainCenter plainCenter(int level, int index) {
-    return PlainCenter(depths[index], depthScale(texelWidth(level, depths[index]), blurDepthVariance));
+UnbrokenCenter unbrokenCenter(int level, int index) {
+    return UnbrokenCenter(depths[index], depthScale(texelWidth(level, depths[index]), blurDepthVariance));
 }
 
 // Fourth roots of the binomial's weights.
 const float kernelRoots[3] = float[](0.78254229, 0.70710678, 0.5);
 
-// The same where every tap is full and no step is near: nothing is missing, nothing left out. `root` is the kernel's
-// fourth root, taken into the fourth power of the depth weight.
-void addPlainTap(inout vec4 sum, vec4 lightAndArea, float depth, PlainCenter center, float root) {
+// The same in an unbroken block, where every tap is full and no step is near: nothing is missing, nothing left out. `root` is
+// the kernel's fourth root, taken into the fourth power of the depth weight.
+void addUnbrokenTap(inout vec4 sum, vec4 lightAndArea, float depth, UnbrokenCenter center, float root) {
     float difference = depth - center.depth;
     float base = clamp(root - difference * difference * (root * center.scale), 0.0, 1.0);
     base *= base;
@@ -204,20 +205,20 @@ void addPlainTap(inout vec4 sum, vec4 lightAndArea, float depth, PlainCenter cen
     sum += weight * vec4(lightAndArea.rgb, 1.0);
 }
 
-BlurredTexel plainTexel(vec4 sum, int index) {
-    return BlurredTexel(sum.rgb / sum.w, 1.0, depths[index], massesAndMaterials[index] >> 16, true, false);
+BlurredTexel unbrokenTexel(vec4 sum, int index) {
+    return BlurredTexel(sum.rgb / sum.w, 1.0, depths[index], materialOf(coveragesAndMaterials[index]), true, false);
 }
 
-BlurredTexel blurPlain(int level, int center) {
-    PlainCenter from = plainCenter(level, center);
+BlurredTexel blurUnbroken(int level, int center) {
+    UnbrokenCenter from = unbrokenCenter(level, center);
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (int y = -2; y <= 2; ++y) {
         [[unroll]] for (int x = -2; x <= 2; ++x) {
             int index = center + x + y * pitch;
-            addPlainTap(sum, unpackTap(lights[index]), depths[index], from, kernelRoots[abs(x)] * kernelRoots[abs(y)]);
+            addUnbrokenTap(sum, unpackTap(lights[index]), depths[index], from, kernelRoots[abs(x)] * kernelRoots[abs(y)]);
         }
     }
-    return plainTexel(sum, center);
+    return unbrokenTexel(sum, center);
 }
 
 const BlurredTexel emptyBlurred = BlurredTexel(vec3(0.0), 0.0, 0.0, 0u, false, true);
@@ -228,7 +229,7 @@ void storeBlurred(Block block, ivec2 local, BlurredTexel blurred) {
         return;
     }
     int index = blurredIndex(texelIndex(block.level, texel));
-    blurredLights[index] = blurred.present ? packBlurred(blurred) : uvec2(0u, signBit);
+    blurredLights[index] = blurred.present ? packBlurred(blurred) : uvec2(0u, steppedBit);
     bool isEmpty = depths[sharedIndex(local + reach)] == 0.0;
     if (isEmpty && blurred.present) {
         borrowedSurfaces[index] = uvec2(floatBitsToUint(blurred.depth), blurred.material);
@@ -248,7 +249,7 @@ void storeSecond(Block block, ivec2 local, BlurredTexel blurred) {
 // Both surfaces of a texel in whose block something is missing or away.
 void blurSurfaces(Block block, ivec2 local, int center) {
     BlurredTexel surface = findSurface(block.level, center);
-    int count = (rough & anySecond) != 0u && secondDepths[center] > 0.0 ? 2 : 1;
+    int count = (blockBits & anySecond) != 0u && secondDepths[center] > 0.0 ? 2 : 1;
     [[dont_unroll]] for (int i = 0; i < count; ++i) {
         BlurredTexel blurred = blurAlong(surface, block.level, center);
         if (i == 0) {
@@ -271,10 +272,10 @@ void main() {
     }
     Block block = findBlock(group);
     if (thread == 0) {
-        rough = 0u;
+        blockBits = 0u;
     }
     barrier();
-    if (block.level <= rawLevels) {
+    if (block.level <= tileLevels) {
         loadBlock(block, thread);
     } else if (secondLevels > 0 && block.level <= secondLevels) {
         loadSecondsBlock(block, thread);
@@ -283,29 +284,29 @@ void main() {
     }
     barrier();
     ivec2 local = ivec2(gl_LocalInvocationID.xy);
-    if ((rough & anything) == 0u) { // no pixel will read these, but other texels lie near
+    if ((blockBits & anything) == 0u) { // no pixel will read these, but other texels lie near
         storeBlurred(block, local, emptyBlurred);
         return;
     }
-    if (secondLevels > 0 && block.level <= rawLevels && (rough & anySecond) != 0u) {
+    if (secondLevels > 0 && block.level <= tileLevels && (blockBits & anySecond) != 0u) {
         loadSeconds(block, thread);
     }
     int row = thread / (pitch / 2);
     ivec2 pair = 2 * ivec2(thread - row * (pitch / 2), row);
     if (all(lessThan(pair, loadedSize(block)))) {
-        noteRoughness(roughnessBetween(block, pair));
+        noteBits(stepBits(block, pair));
     }
     barrier();
     if (any(greaterThanEqual(local, block.size))) {
         return;
     }
     int center = sharedIndex(local + reach);
-    bool isPlain = !separateMaterials && rough == anything;
-    if (secondLevels > 0 && !isPlain) {
+    bool isUnbroken = !separateMaterials && blockBits == anything;
+    if (secondLevels > 0 && !isUnbroken) {
         blurSurfaces(block, local, center);
         return;
     }
-    storeBlurred(block, local, isPlain || secondLevels > 0
-                                   ? blurPlain(block.level, center)
+    storeBlurred(block, local, isUnbroken || secondLevels > 0
+                                   ? blurUnbroken(block.level, center)
                                    : blurAlong(findSurface(block.level, center), block.level, center));
 }

@@ -1,29 +1,30 @@
 // How pass B of `bank` loads a block's texels into shared memory: those of pass A as they are, the coarser levels' reduced.
-// docs/scatter.md. Included by pass B.
+// docs/scatter.md. Included by pass B. Uses its `threads`, Block, texelBits and noteBits, and what it has in shared memory:
+// lights, depths, coveragesAndMaterials and those of second surfaces.
 
 // A texel's words; those of an empty one outside the level.
-uvec4 rawWords(int level, ivec2 texel) {
+uvec4 reducedWords(int level, ivec2 texel) {
     ivec2 inside = clamp(texel, ivec2(0), levelExtent(level) - 1);
-    uvec4 words = rawTexels[texelIndex(level, inside)];
+    uvec4 words = reducedTexels[texelIndex(level, inside)];
     return texel == inside ? words : uvec4(0u);
 }
 
 void storeShared(ivec2 place, uvec4 words) {
     int index = sharedIndex(place);
     lights[index] = words.xy;
-    depths[index] = uintBitsToFloat(words.z);
-    massesAndMaterials[index] = words.w;
+    depths[index] = depthOf(words);
+    coveragesAndMaterials[index] = words.w;
 }
 
 void storeSharedSecond(ivec2 place, uvec4 words) {
     int index = sharedIndex(place);
     secondLights[index] = words.xy;
-    secondDepths[index] = uintBitsToFloat(words.z);
+    secondDepths[index] = depthOf(words);
 }
 
 // Of the second surface of a texel of a level that pass A has reduced. `word`: the last of its own.
 uvec4 secondWords(int level, ivec2 texel, uint word) {
-    return (word & secondBit) != 0u ? secondTexels[texelIndex(level, texel)] : uvec4(0u);
+    return hasSecond(word) ? secondTexels[texelIndex(level, texel)] : uvec4(0u);
 }
 
 // Of the texels that a block loads, counted row by row.
@@ -38,17 +39,17 @@ const int loadSteps = (loadedCount + threads - 1) / threads;
 void loadBlock(Block block, int thread) {
     uvec4 words[loadSteps];
     [[unroll]] for (int i = 0; i < loadSteps; ++i) {
-        words[i] = rawWords(block.level, block.first - reach + loadedPlace(thread + i * threads));
+        words[i] = reducedWords(block.level, block.first - reach + loadedPlace(thread + i * threads));
     }
-    uint roughness = 0u;
+    uint bits = 0u;
     [[unroll]] for (int i = 0; i < loadSteps; ++i) {
         ivec2 place = loadedPlace(thread + i * threads);
         if (place.y < loadedSize(block).y) {
             storeShared(place, words[i]);
-            roughness |= roughnessOf(words[i]);
+            bits |= texelBits(words[i]);
         }
     }
-    noteRoughness(roughness);
+    noteBits(bits);
 }
 
 // The second surfaces of what loadBlock has loaded, only where there are any.
@@ -56,7 +57,7 @@ void loadSeconds(Block block, int thread) {
     [[unroll]] for (int i = 0; i < loadSteps; ++i) {
         ivec2 place = loadedPlace(thread + i * threads);
         if (place.y < loadedSize(block).y) {
-            uint word = massesAndMaterials[sharedIndex(place)];
+            uint word = coveragesAndMaterials[sharedIndex(place)];
             storeSharedSecond(place, secondWords(block.level, block.first - reach + place, word));
         }
     }
@@ -72,16 +73,16 @@ bool isOwn(Block block, ivec2 texel) {
 void storeReduced(Block block, ivec2 place, ivec2 texel, uvec4 words) {
     storeShared(place, words);
     if (isOwn(block, texel)) {
-        rawTexels[texelIndex(block.level, texel)] = words;
+        reducedTexels[texelIndex(block.level, texel)] = words;
     }
-    noteRoughness(roughnessOf(words));
+    noteBits(texelBits(words));
 }
 
 // A texel of a level that pass A leaves to this one.
-RawTexel reducedTexel(int level, ivec2 texel) {
-    RawTexel children[4];
+ReducedTexel reducedTexel(int level, ivec2 texel) {
+    ReducedTexel children[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        children[i] = unpackRaw(rawWords(level - 1, 2 * texel + ivec2(i & 1, i >> 1)));
+        children[i] = unpackReduced(reducedWords(level - 1, 2 * texel + ivec2(i & 1, i >> 1)));
     }
     return reduceTexels(children, level);
 }
@@ -94,11 +95,11 @@ void reduceToCoarsest(Block block, int thread) {
     bool isLoaded = place.y < size.y;
     uvec4 words = uvec4(0u);
     if (isLoaded && isInLevel(bankLevels, texel)) {
-        RawTexel children[4];
+        ReducedTexel children[4];
         [[unroll]] for (int i = 0; i < 4; ++i) {
             children[i] = texelAt(sharedIndex(2 * place + ivec2(i & 1, i >> 1)));
         }
-        words = packRaw(reduceTexels(children, bankLevels));
+        words = packReduced(reduceTexels(children, bankLevels));
     }
     barrier();
     if (isLoaded) {
@@ -108,13 +109,13 @@ void reduceToCoarsest(Block block, int thread) {
 
 // Of the level after pass A's, and of the coarsest one, for which the former is reduced first.
 void loadCoarseBlock(Block block, int thread) {
-    const int level = rawLevels + 1;
+    const int level = tileLevels + 1;
     bool isCoarsest = block.level == bankLevels;
     ivec2 first = (block.first - reach) * (isCoarsest ? 2 : 1);
     for (int index = thread; index < loadedCount; index += threads) {
         ivec2 place = loadedPlace(index);
         ivec2 texel = first + place;
-        uvec4 words = isInLevel(level, texel) ? packRaw(reducedTexel(level, texel)) : uvec4(0u);
+        uvec4 words = isInLevel(level, texel) ? packReduced(reducedTexel(level, texel)) : uvec4(0u);
         if (isCoarsest) {
             storeShared(place, words);
         } else {
@@ -134,15 +135,15 @@ Surfaces reducedSurfaces(int level, ivec2 texel) {
     vec2 range = noRange;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 child = 2 * texel + ivec2(i & 1, i >> 1);
-        firsts[i] = rawWords(level - 1, child);
+        firsts[i] = reducedWords(level - 1, child);
         seconds[i] = secondWords(level - 1, child, firsts[i].w);
-        range = includeDepth(includeDepth(range, uintBitsToFloat(firsts[i].z)), uintBitsToFloat(seconds[i].z));
+        range = includeDepth(includeDepth(range, depthOf(firsts[i])), depthOf(seconds[i]));
     }
     range = rangeOfSurfaces(range, level);
     Surfaces surfaces = Surfaces(emptyTexel(), emptyTexel());
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        addToNearer(surfaces, unpackRaw(firsts[i]), range);
-        addToNearer(surfaces, unpackRaw(seconds[i]), range);
+        addToNearer(surfaces, unpackReduced(firsts[i]), range);
+        addToNearer(surfaces, unpackReduced(seconds[i]), range);
     }
     return orderSurfaces(surfaces);
 }
@@ -156,11 +157,11 @@ void loadSecondsBlock(Block block, int thread) {
         if (isInLevel(block.level, texel)) {
             Surfaces surfaces = reducedSurfaces(block.level, texel);
             words = packFirst(surfaces);
-            second = packRaw(surfaces.second);
+            second = packReduced(surfaces.second);
         }
         storeReduced(block, place, texel, words);
         storeSharedSecond(place, second);
-        if ((words.w & secondBit) != 0u && isOwn(block, texel)) {
+        if (hasSecond(words.w) && isOwn(block, texel)) {
             secondTexels[texelIndex(block.level, texel)] = second;
         }
     }

@@ -1,6 +1,6 @@
-// What the two pipelines of pass C of `bank` share: the material's mixture of a region's kernels, storing the result.
-// docs/scatter.md.
-#include "bank_region.glsl"
+// What the two pipelines of pass C of `bank` have in common: the material's mixture of a region's kernels, storing the result.
+// docs/scatter.md. Included by them after bank_region_smooth.glsl or bank_region_edge.glsl, of which it uses ownSide,
+// packedPlaces, levelPitch and levelAwayVariance.
 
 layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
     uvec4 bankTables[]; // bankTableWords a material
@@ -9,7 +9,7 @@ layout(set = 0, binding = bindingTables, std430) readonly buffer Tables {
 // Numerator of every pixel's result, and their denominator.
 struct Sum {
     vec3 light[ownPixels];
-    vec3 mass;
+    vec3 weight;
 };
 
 Sum noSum() {
@@ -17,7 +17,7 @@ Sum noSum() {
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
         sum.light[i] = vec3(0.0);
     }
-    sum.mass = vec3(0.0);
+    sum.weight = vec3(0.0);
     return sum;
 }
 
@@ -107,12 +107,10 @@ vec4 levelLight(uvec2 words) {
     return vec4(light.rgb, abs(light.a));
 }
 
-const float levelAwayVariance = isEdge && secondLevels > 0 ? bankSecondAwayVariance : bankLevelAwayVariance;
-
-// What a level's weighted taps are multiplied by: one over their total weight, and a share of the pixel. On a slope the taps'
-// weighted mean depth is the pixel's; where it is away from there, they stand on another surface, and the share falls.
-// `away`: weighted sum of how far the taps are behind the pixel, mm. `scale`: levelScale.
-float levelShare(float total, float away, float scale) {
+// What a level's weighted taps are multiplied by: one over their total weight, times how much of the level is where the pixel
+// is, [0, 1]. On a slope the taps' weighted mean depth is the pixel's; where it is away from there, they stand on another
+// surface. `away`: weighted sum of how far the taps are behind the pixel, mm. `scale`: levelScale.
+float levelFactor(float total, float away, float scale) {
     float normalization = 1.0 / max(total, bankLeastWeight);
     return normalization * depthWeight(away * normalization, scale * (bankLevelDepthVariance / levelAwayVariance));
 }
@@ -123,7 +121,7 @@ void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum s
     ivec2 first = local + view.areaOffset;
     vec3 leaving[ownPixels];
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
-        leaving[i] = sum.light[i] / max(sum.mass, vec3(1e-20));
+        leaving[i] = sum.light[i] / max(sum.weight, vec3(1e-20));
     }
     if (albedoOrStrength && (strength < 1.0 || hasFlag(flagStrength))) {
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {

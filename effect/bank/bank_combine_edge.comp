@@ -3,11 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-const bool isEdge = true;
+#include "bank_region_edge.glsl"
 #include "bank_combine.glsl"
 
-// Of level 1's texels as reduced, not packed, since each is read sixteen times: light times area, and area, 0 where it is empty;
-// depth, then what addReducedTap wants: what scales squared distances in texel widths, and lightSlope over bankMostLit.
+// Of level 1's texels as reduced, not packed, since each is read sixteen times: light times area, and area, 0 where it is
+// empty; depth, then what addReducedTap wants: what scales squared distances in texel widths, and lightSlope over bankMostLit.
 shared vec4 fineTaps[fineCount];
 shared vec3 fineSurfaces[fineCount];
 const float pixelScale = 0.25 / bankPixelDepthVariance;
@@ -27,11 +27,11 @@ void storeFine(int place, int index, uvec4 words) {
     fineSurfaces[place] =
         vec3(abs(uintBitsToFloat(words.z)), pixelScale * spread.closeness, spread.lightSlope / bankMostLit);
     if (separateMaterials) {
-        fineMaterials[place] = words.w >> 16;
+        fineMaterials[place] = materialOf(words.w);
     }
     if (secondLevels > 0) {
         fineSecondDepths[place] = 0.0;
-        if ((words.w & secondBit) != 0u) {
+        if (hasSecond(words.w)) {
             uvec4 second = secondTexels[index];
             fineSecondLights[place] = second.xy;
             fineSecondDepths[place] = uintBitsToFloat(second.z);
@@ -41,7 +41,7 @@ void storeFine(int place, int index, uvec4 words) {
 
 void storeLevelSecond(Coarse coarse, uvec2 surface) {
     levelSecondDepths[coarse.place] = farAway;
-    if ((surface.y & secondBit) != 0u) {
+    if (hasSecond(surface.y)) {
         uvec4 second = secondTexels[blurredSecondIndex(coarse.index)];
         levelSecondLights[coarse.place] = coarse.beyond ? beyondBorder(second.xy) : second.xy;
         levelSecondDepths[coarse.place] = uintBitsToFloat(second.z);
@@ -79,14 +79,14 @@ uint loadRegion(Region region, int thread, ivec2 local) {
     if (isCoarse) {
         coarse = findCoarse(number, region.first);
         light = blurredLights[blurredIndex(coarse.index)];
-        surface = rawTexels[coarse.index].zw;
+        surface = reducedTexels[coarse.index].zw;
     } else {
         ringPixel = fetchPixel(region, ring);
     }
     int fine = min(thread, fineCount - 1);
     ivec2 fineTexel = ivec2(fine % finePitch, fine / finePitch) - 2;
     int texelPlace = fineTexelIndex(region, fineTexel);
-    uvec4 fineWords = rawTexels[texelPlace];
+    uvec4 fineWords = reducedTexels[texelPlace];
     if (!readsOccupied(region)) {
         fineWords = isOccupied(region, fineTexel) ? fineWords : uvec4(0u);
         own.quadWord = isOccupied(region, local >> 1) ? own.quadWord : 0u;
@@ -99,7 +99,10 @@ uint loadRegion(Region region, int thread, ivec2 local) {
     }
     if (isCoarse && thread % (threads / 2) < coarseCount) {
         storeLevelTexel(coarse, light);
-        storeSurface(coarse, surface, light);
+        uvec2 stored = storeSurface(coarse, surface, light);
+        if (separateMaterials) {
+            levelMaterials[coarse.place] = materialOf(stored.y);
+        }
         if (secondLevels > 0) {
             storeLevelSecond(coarse, surface);
         }
@@ -114,21 +117,22 @@ uint loadRegion(Region region, int thread, ivec2 local) {
 const float middleRoot = 0.84089642;
 const float besideRoot = 0.70710678;
 
-void add(inout Sum sum, vec3 weight, vec4 lightAndMass) {
-    sum.light[0] += weight * lightAndMass.rgb;
-    sum.mass += weight * lightAndMass.a;
+void add(inout Sum sum, vec3 weight, vec4 lightAndCoverage) {
+    sum.light[0] += weight * lightAndCoverage.rgb;
+    sum.weight += weight * lightAndCoverage.a;
 }
 
 // The identity.
 void addIdentity(inout Sum sum, vec3 weight, ivec2 local) {
     vec4 lightAndArea = unpackLight(pixelLights[ownPlace(local, ivec2(0))]);
-    add(sum, max(weight, vec3(bankLeastIdentity)), vec4(lightAndArea.rgb, massOf(lightAndArea.a)));
+    add(sum, max(weight, vec3(bankLeastIdentity)), vec4(lightAndArea.rgb, coverageOf(lightAndArea.a)));
 }
 
-// Light times mass, and mass, from light and area that were summed with depth weights over the surface within a kernel's reach.
+// Light times coverage, and coverage, from light and area that were summed with depth weights over the surface within a
+// kernel's reach.
 vec4 surfaceSeen(vec4 lightAndArea) {
-    float mass = massOf(lightAndArea.w);
-    return vec4(lightAndArea.rgb * (mass / max(lightAndArea.w, bankLeastWeight)), mass);
+    float coverage = coverageOf(lightAndArea.w);
+    return vec4(lightAndArea.rgb * (coverage / max(lightAndArea.w, bankLeastWeight)), coverage);
 }
 
 // The full-resolution 3x3.
@@ -157,8 +161,8 @@ float finestWeight(int i) {
     return i == 0 ? 0.75 : i == 3 ? 0.25 : 1.0;
 }
 
-// A texel as reduced: `tap`: light times area, and area; `surface`: fineSurfaces but for the depth. It gives the light that it has
-// at the pixel's depth, here over bankMostLit. `distance`: how far it is behind the pixel, in texel widths.
+// A texel as reduced: `tap`: light times area, and area; `surface`: fineSurfaces but for the depth. It gives the light that it
+// has at the pixel's depth, here over bankMostLit. `distance`: how far it is behind the pixel, in texel widths.
 void addReducedTap(inout vec4 lightAndArea, vec4 tap, float kernel, float distance, vec2 surface) {
     float weight = kernel * depthWeight(distance, surface.x);
     float lit = weight * clamp(fma(-surface.y, distance, 1.0 / bankMostLit), 0.0, 1.0);
@@ -198,7 +202,7 @@ void addFinestLevel(inout Sum sum, vec3 weight, ivec2 local, float depth, uint m
 
 // Texels of a level, weighted by place and depth, as a pixel sees them.
 struct Taps {
-    vec4 light; // w: mass
+    vec4 light; // w: coverage
     float total;
     float away; // mm, how far they are behind the pixel
 };
@@ -211,9 +215,9 @@ void addTap(inout Taps taps, float bilinear, uvec2 light, float distance, float 
     taps.away += weight * distance;
 }
 
-// A level with depth weights: light times mass, and mass. `scale`: levelScale. `share`: how much of it there is at the pixel's
-// depth, [0, 1].
-vec4 weightedLevel(float scale, Corner corner, float depth, uint material, out float share) {
+// A level with depth weights: light times coverage, and coverage. `scale`: levelScale. `present`: how much of it is where the
+// pixel is, [0, 1].
+vec4 weightedLevel(float scale, Corner corner, float depth, uint material, out float present) {
     vec2 rest = 1.0 - corner.fraction;
     Taps taps = Taps(vec4(0.0), 0.0, 0.0);
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -231,25 +235,25 @@ vec4 weightedLevel(float scale, Corner corner, float depth, uint material, out f
         }
         addTap(taps, bilinear, light, distance, scale);
     }
-    share = levelShare(taps.total, taps.away, scale);
-    vec4 seen = taps.light * share;
-    share *= taps.total;
+    float factor = levelFactor(taps.total, taps.away, scale);
+    vec4 seen = taps.light * factor;
+    present = factor * taps.total;
     return seen;
 }
 
 // A level with bilinear weights.
-vec4 plainLevel(Corner corner) {
+vec4 bilinearLevel(Corner corner) {
     int below = corner.place + levelPitch;
     vec4 upper = mix(unpackLight(levelLights[corner.place]), unpackLight(levelLights[corner.place + 1]), corner.fraction.x);
     vec4 lower = mix(unpackLight(levelLights[below]), unpackLight(levelLights[below + 1]), corner.fraction.x);
     return mix(upper, lower, corner.fraction.y);
 }
 
-// From the coarsest level on: what of a level is not at the pixel's depth is asked of the next finer one. Returns what is
-// left of that.
+// From the coarsest level on: the weight of what of a level is not where the pixel is passes to the next finer one. Returns
+// what the last of them passes on.
 vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 local, float depth, uint material) {
-    uint rough = separateMaterials ? ~0u : roughLevels;
-    vec3 left = vec3(0.0);
+    uint stepped = separateMaterials ? ~0u : steppedLevels;
+    vec3 passedOn = vec3(0.0);
     float scale = levelScale(bankLevels, depth); // of a finer level four times that, whose texels are half as wide
     [[dont_unroll]] for (int level = bankLevels; level >= 2; --level, scale *= 4.0) {
         if ((used >> level & 2u) == 0u) {
@@ -257,17 +261,17 @@ vec3 addLevels(inout Sum sum, Mixture mixture, uint used, ivec2 region, ivec2 lo
         }
         Corner corner = cornerOf(gridOf(level), level, region, local);
         vec4 seen;
-        float share = 1.0;
-        if ((rough >> level & 1u) == 0u) {
-            seen = plainLevel(corner);
+        float present = 1.0;
+        if ((stepped >> level & 1u) == 0u) {
+            seen = bilinearLevel(corner);
         } else {
-            seen = weightedLevel(scale, corner, depth, material, share);
+            seen = weightedLevel(scale, corner, depth, material, present);
         }
-        vec3 weight = kernelWeight(mixture, level + 1) + left;
+        vec3 weight = kernelWeight(mixture, level + 1) + passedOn;
         add(sum, weight, seen);
-        left = weight * (1.0 - share);
+        passedOn = weight * (1.0 - present);
     }
-    return left;
+    return passedOn;
 }
 
 void main() {
@@ -278,7 +282,7 @@ void main() {
     int thread = int(gl_LocalInvocationIndex);
     ivec2 local = ivec2(gl_LocalInvocationID.xy);
     if (thread == 0) {
-        roughLevels = 0u;
+        steppedLevels = 0u;
     }
     barrier();
     uint material = loadRegion(region, thread, local);
@@ -288,12 +292,12 @@ void main() {
         Mixture mixture = findMixture(material, depth, region.first + local + view.areaOffset);
         Sum sum = noSum();
         uint used = usedKernels(mixture);
-        vec3 left = addLevels(sum, mixture, used, region.first, local, depth, material);
+        vec3 passedOn = addLevels(sum, mixture, used, region.first, local, depth, material);
         if ((used & finestKernel) != 0u) {
-            addFinestLevel(sum, kernelWeight(mixture, 2) + left, local, depth, material);
-            left = vec3(0.0);
+            addFinestLevel(sum, kernelWeight(mixture, 2) + passedOn, local, depth, material);
+            passedOn = vec3(0.0);
         }
-        addPixels(sum, kernelWeight(mixture, 1) + left, local, material, depth);
+        addPixels(sum, kernelWeight(mixture, 1) + passedOn, local, material, depth);
         addIdentity(sum, kernelWeight(mixture, 0), local);
         storeGroup(region.first + local, bvec4(true), material, strengthOf(mixture), sum);
     } else if (all(lessThan(region.first + local, view.areaExtent))) {

@@ -7,10 +7,10 @@
 #ifdef HALF_FLOATS
 #extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
 #endif
-const bool isEdge = false;
+#include "bank_region_smooth.glsl"
 #include "bank_combine.glsl"
 
-shared uvec2 fineLights[fineCount]; // of level 1's texels: light times mass, and mass
+shared uvec2 fineLights[fineCount]; // of level 1's texels: light times coverage, and coverage
 
 // What light is interpolated in. As differences times fractions, so that a constant field stays exactly what it is. Sums of two
 // differences are made of pixels alone (isBright).
@@ -40,7 +40,7 @@ uvec2 packLight(Light light) {
 // middle in x and y.
 void filterPixels(out Light result[4], ivec2 thread, vec2 beside) {
     vec2 side = beside / (1.0 + 2.0 * beside);
-    Light rows[4][2]; // the block's rows, filtered along x for the quad's two columns
+    Light rows[4][2]; // the rows of these, filtered along x for the quad's two columns
     [[unroll]] for (int y = 0; y < 4; ++y) {
         Light row[4];
         [[unroll]] for (int x = 0; x < 4; ++x) {
@@ -87,7 +87,7 @@ void filterFineRow(FineKernel kernel, int first, out Light row[2]) {
 // of a wider variance.
 void filterFinestLevel(out Light result[4], ivec2 texel, vec2 beside) {
     vec2 falloffs = 2.0 * beside;
-    falloffs *= sqrt(falloffs);
+    falloffs *= sqrt(falloffs); // to the power bankFinestFalloffPower
     vec2 side = falloffs / (1.0 + 2.0 * falloffs);
     FineKernel kernelX = fineKernel(side.x);
     FineKernel kernelY = fineKernel(side.y);
@@ -117,27 +117,27 @@ void filterFinestLevel(out Light result[4], ivec2 texel, vec2 beside) {
 }
 
 // Adds a kernel whose reach is all on the surface.
-void addWhole(inout Sum sum, vec3 weight, Light lights[4]) {
+void addCovered(inout Sum sum, vec3 weight, Light lights[4]) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         sum.light[i] += weight * vec3(lights[i].rgb);
     }
-    sum.mass += weight;
+    sum.weight += weight;
 }
 
-// Adds a kernel of which only a mass is: each pixel has the mean of its light, the quad one share.
+// Adds a kernel of which only a part is: each pixel has the mean of its light, the quad one coverage.
 void addPartial(inout Sum sum, vec3 weight, vec4 lights[4]) {
     weight *= 0.25 * (lights[0].a + lights[1].a + lights[2].a + lights[3].a);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         sum.light[i] += weight / max(lights[i].a, bankLeastWeight) * lights[i].rgb;
     }
-    sum.mass += weight;
+    sum.weight += weight;
 }
 
 void addKernel(inout Sum sum, vec3 weight, Light lights[4]) {
     if (min(min(lights[0].a, lights[1].a), min(lights[2].a, lights[3].a)) < Real(1.0)) {
         addPartial(sum, weight, vec4[](vec4(lights[0]), vec4(lights[1]), vec4(lights[2]), vec4(lights[3])));
     } else {
-        addWhole(sum, weight, lights);
+        addCovered(sum, weight, lights);
     }
 }
 
@@ -147,10 +147,10 @@ void addIdentity(inout Sum sum, vec3 weight, ivec2 texel) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
         lights[i] = storedLight(pixelLights[ownPlace(texel, ivec2(i & 1, i >> 1))]);
     }
-    addWhole(sum, max(weight, vec3(bankLeastIdentity)), lights);
+    addCovered(sum, max(weight, vec3(bankLeastIdentity)), lights);
 }
 
-// A level from 2 on as a quad sees it, whose pixels lie between the same four texels: light times mass, and mass.
+// A level from 2 on as a quad sees it, whose pixels lie between the same four texels: light times coverage, and coverage.
 struct Seen {
     vec4 middle;  // of the quad
     Light slopeX; // from a texel to the next
@@ -158,7 +158,7 @@ struct Seen {
 };
 
 // With bilinear weights.
-Seen plainLevel(Corner corner) {
+Seen bilinearLevel(Corner corner) {
     int below = corner.place + levelPitch;
     Real2 fraction = Real2(corner.fraction);
     Light upper = storedLight(levelLights[corner.place]);
@@ -171,8 +171,8 @@ Seen plainLevel(Corner corner) {
     return Seen(vec4(fma(Light(fraction.y), slopeY, upper)), slopeX, slopeY);
 }
 
-// With depth weights. `share`: how much of the level there is at the quad's depth, [0, 1].
-Seen weightedLevel(int level, Corner corner, float depth, out float share) {
+// With depth weights. `factor`: levelFactor, by which all of it is to be multiplied.
+Seen weightedLevel(int level, Corner corner, float depth, out float factor) {
     float scale = levelScale(level, depth);
     vec2 fraction = corner.fraction;
     vec4 taps[4];
@@ -187,14 +187,14 @@ Seen weightedLevel(int level, Corner corner, float depth, out float share) {
         total += tapWeight;
         away += tapWeight * distance;
     }
-    share = levelShare(total, away, scale);
+    factor = levelFactor(total, away, scale);
     vec4 upper = mix(taps[0], taps[1], fraction.x);
     vec4 lower = mix(taps[2], taps[3], fraction.x);
     return Seen(mix(upper, lower, fraction.y), Light(mix(taps[1] - taps[0], taps[3] - taps[2], fraction.y)),
                 Light(lower - upper));
 }
 
-// How the mean light, of a level of which a mass is there, changes from a texel to the next.
+// How the mean light, of a level of which only a part is there, changes from a texel to the next.
 vec3 meanSlope(Light slope, vec4 middle) {
     return vec3(slope.rgb) - middle.rgb * (float(slope.a) / max(middle.a, bankLeastWeight));
 }
@@ -202,7 +202,7 @@ vec3 meanSlope(Light slope, vec4 middle) {
 // Begins a quad's sum with the coarse levels: once for its four pixels, while they have no light of their own yet, which takes
 // fewer registers. `local`: the first of them, counted from the region's. Levels without a weight are not asked for it.
 Sum sumCoarseLevels(Mixture mixture, uint used, ivec2 region, ivec2 local, float depth) {
-    uint rough = roughLevels;
+    uint stepped = steppedLevels;
     LevelGrid grid = finestGrid;
     vec3 light = vec3(0.0);
     vec3 stepX = vec3(0.0); // from a pixel to the next
@@ -213,15 +213,15 @@ Sum sumCoarseLevels(Mixture mixture, uint used, ivec2 region, ivec2 local, float
             vec3 weight = kernelWeight(mixture, level + 1);
             Corner corner = cornerOf(grid, level, region, local);
             Seen seen;
-            float share = 1.0;
-            if ((rough >> level & 1u) == 0u) {
-                seen = plainLevel(corner);
+            float factor = 1.0;
+            if ((stepped >> level & 1u) == 0u) {
+                seen = bilinearLevel(corner);
             } else {
-                seen = weightedLevel(level, corner, depth, share);
+                seen = weightedLevel(level, corner, depth, factor);
             }
-            weight *= share;
+            weight *= factor;
             light += weight * seen.middle.rgb;
-            sum.mass += weight * seen.middle.a;
+            sum.weight += weight * seen.middle.a;
             if (level <= bankSlopeLevels) {
                 weight *= corner.step;
                 stepX += weight * meanSlope(seen.slopeX, seen.middle);
@@ -236,11 +236,11 @@ Sum sumCoarseLevels(Mixture mixture, uint used, ivec2 region, ivec2 local, float
     return sum;
 }
 
-// A texel of level 1, as reduced, without the surface's area: light times mass, and mass.
+// A texel of level 1, as reduced, without the surface's area: light times coverage, and coverage.
 void storeFine(ivec2 texel, uvec2 words) {
     Light lightAndArea = storedLight(words);
-    Real mass = min(abs(lightAndArea.w), Real(1.0));
-    fineLights[fineIndex(texel)] = packLight(Light(lightAndArea.rgb * mass, mass));
+    Real coverage = min(abs(lightAndArea.w), Real(1.0));
+    fineLights[fineIndex(texel)] = packLight(Light(lightAndArea.rgb * coverage, coverage));
 }
 
 const int fineRingCount = fineCount - threads; // two texels wide
@@ -260,7 +260,7 @@ struct Quad {
     float depth;
 };
 
-// Threads of a part of the region follow one another, so that those of one that is left out end together.
+// Threads of a part of the region follow one another, so that those of one that is skipped end together.
 const int partThreads = threads / 4;
 
 // A thread's quad, as a texel of level 1.
@@ -284,7 +284,7 @@ uvec2 dimmed(uvec2 words) {
 Quad loadRegion(Region region, int thread, ivec2 texel) {
     ivec2 last = view.areaExtent - 1;
     int fine = fineTexelIndex(region, texel);
-    uvec4 fineTexel = rawTexels[fine];
+    uvec4 fineTexel = reducedTexels[fine];
     ivec2 first = region.first + 2 * texel;
     vec3 lights[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -292,10 +292,10 @@ Quad loadRegion(Region region, int thread, ivec2 texel) {
     }
     int ringThread = threads - 1 - thread;
     ivec2 fineRing = fineRingPosition(min(ringThread, fineRingCount - 1));
-    uvec2 ringLight = rawTexels[fineTexelIndex(region, fineRing)].xy;
+    uvec2 ringLight = reducedTexels[fineTexelIndex(region, fineRing)].xy;
     Coarse coarse = findCoarse(min(thread, coarseCount - 1), region.first);
     uvec2 coarseLight = blurredLights[blurredIndex(coarse.index)];
-    uvec2 coarseSurface = rawTexels[coarse.index].zw;
+    uvec2 coarseSurface = reducedTexels[coarse.index].zw;
     ivec2 ring = ringPosition(min(thread, ringCount - 1), regionSize);
     Fetched ringPixel = fetchPixel(region, ring);
     if (!readsOccupied(region)) {
@@ -330,10 +330,10 @@ Quad loadRegion(Region region, int thread, ivec2 texel) {
     }
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        storePixel(ownPlace(texel, offset), lights[i], 1.0, !hasMaterial(quad, i, 0u));
+        storePixel(ownPlace(texel, offset), lights[i], !hasMaterial(quad, i, 0u));
     }
     if (thread < ringCount) {
-        storePixel(pixelPlace(ring + 1), ringPixel.light, 1.0, ringMaterial != 0u);
+        storePixel(pixelPlace(ring + 1), ringPixel.light, ringMaterial != 0u);
     }
     return quad;
 }
@@ -357,12 +357,12 @@ void main() {
     int part = thread / partThreads;
     ivec2 texel = texelOf(part, thread % partThreads);
     if (thread == 0) {
-        roughLevels = 0u;
+        steppedLevels = 0u;
     }
     barrier();
     Quad quad = loadRegion(region, thread, texel);
     barrier();
-    if ((region.left >> part & 1u) != 0u) {
+    if ((region.skipped >> part & 1u) != 0u) {
         return;
     }
     ivec2 first = region.first + 2 * texel;
@@ -371,19 +371,19 @@ void main() {
         scattering |= hasMaterial(quad, i, 0u) ? 0u : 1u << i;
     }
     // One round for every material in the quad.
-    for (uint left = scattering; left != 0u;) {
-        int next = findLSB(left);
+    for (uint remaining = scattering; remaining != 0u;) {
+        int next = findLSB(remaining);
         uint material = pixelMaterial(quad.materials, ivec2(next & 1, next >> 1));
         bvec4 members = bvec4(true);
-        if ((quad.word & mixedBit) != 0u) {
+        if (isMixed(quad.word)) {
             [[unroll]] for (int i = 0; i < 4; ++i) {
                 members[i] = hasMaterial(quad, i, material);
-                left &= members[i] ? ~(1u << i) : ~0u;
+                remaining &= members[i] ? ~(1u << i) : ~0u;
             }
         } else {
-            left = 0u;
+            remaining = 0u;
         }
-        vec2 beside = besideOf(quad.word);
+        vec2 beside = weightsOf(quad.word);
         Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
         uint used = usedKernels(mixture);
         Sum sum = sumCoarseLevels(mixture, used, region.first, 2 * texel, quad.depth);
@@ -395,7 +395,7 @@ void main() {
             filterFinestLevel(lights, texel, beside);
             addKernel(sum, kernelWeight(mixture, 2), lights);
         }
-        sum.mass *= isBright(region) ? 0.5 : 1.0; // light is half of what it is
+        sum.weight *= isBright(region) ? 0.5 : 1.0; // light is half of what it is
         storeGroup(first, members, material, strengthOf(mixture), sum);
     }
     if (scattering != 15u) {

@@ -4,32 +4,33 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "bank.glsl"
+#include "bank_reduction.glsl"
 #include "bank_surfaces.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 const int side = tileSize / 2; // texels of level 1
 
-// Level 1 as RawTexel has it; where the tile is not one surface, each coarser level then stands at its first child's place.
+// Level 1 as ReducedTexel has it; where the tile is not one surface, each coarser level then stands at its first child's place.
 shared vec4 lightsAndAreas[side * side];
-shared vec2 depthsAndMasses[side * side]; // mass: negative where pixels were dropped
+shared vec2 depthsAndCoverages[side * side]; // coverage: negative where pixels were dropped
 shared uint texelMaterials[separateMaterials ? side * side : 1];
 shared vec4 surfaceLights[4]; // SurfaceSum of the level 3 of a tile of one surface
 shared vec2 surfaceDepths[4];
 // Of the tile's pixels and one around, mm; 0 where none receives light. As bits, since once level 1 is made its second surfaces
-// stand there, in the words of packRaw: with more shared memory fewer workgroups run at a time.
+// stand there, in the words of packReduced: with more shared memory fewer workgroups run at a time.
 const int pitch = tileSize + 2;
 shared uint depths[pitch * pitch];
 shared uint occupied; // whether some pixel has an id
-shared uint roughness; // tileRough of the tile's blocks, tileBright, and notFull
-// Of a tile that is not whole, nearest and farthest depth of level 1, as bits, whose order is the depths'.
+shared uint tileBits; // tileStepBit of the tile's quads, tileBright, and notFull
+// Of a tile that is not unbroken, nearest and farthest depth of level 1, as bits, whose order is the depths'.
 shared uint nearest;
 shared uint farthest;
-// A pixel of some block is on no surface, or on another than the block's, or makes a long step. With second surfaces: some block is
-// not plain.
+// A pixel of some quad is on no surface, or on another than the quad's, or makes a long step. With second surfaces: some quad
+// is not continuous.
 const uint notFull = 1u;
 
-#include "bank_block.glsl"
+#include "bank_quad.glsl"
 
 void storeSharedSecond(int place, uvec4 words) {
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -45,33 +46,33 @@ uvec4 sharedSecond(int place) {
     return words;
 }
 
-// In shared memory, at its place there, and in the pyramid. `quad`: on level 1 areasBit, depth's sign, and packQuad. Returns the
-// second surface, which is in the pyramid alone.
-uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uvec3 quad) {
-    RawTexel first = surfaces.first;
+// In shared memory, at its place there, and in the pyramid. `quadBits`: on level 1 areasBit, spreadBit and packQuad. Returns
+// the second surface, which is in the pyramid alone.
+uvec4 storeSurfaces(Surfaces surfaces, int place, int level, ivec2 texel, uvec3 quadBits) {
+    ReducedTexel first = surfaces.first;
     lightsAndAreas[place] = vec4(first.light, first.area);
-    depthsAndMasses[place] = vec2(first.depth, first.dropped ? -first.mass : first.mass);
+    depthsAndCoverages[place] = vec2(first.depth, first.dropped ? -first.coverage : first.coverage);
     if (separateMaterials) {
         texelMaterials[place] = first.material;
     }
     int index = texelIndex(level, texel);
-    uvec4 words = packRaw(first);
-    words.yzw = level == 1 ? uvec3(words.yz | quad.xy, quad.z) : words.yzw;
+    uvec4 words = packReduced(first);
+    words.yzw = level == 1 ? uvec3(words.yz | quadBits.xy, quadBits.z) : words.yzw;
     uvec4 second = uvec4(0u);
-    if (secondLevels > 0 && surfaces.second.mass > 0.0) {
-        second = packRaw(surfaces.second);
+    if (secondLevels > 0 && surfaces.second.coverage > 0.0) {
+        second = packReduced(surfaces.second);
         words.w |= secondBit;
         secondTexels[index] = second;
     }
-    rawTexels[index] = words;
+    reducedTexels[index] = words;
     return second;
 }
 
-RawTexel texelAt(int place) {
+ReducedTexel texelAt(int place) {
     vec4 lightAndArea = lightsAndAreas[place];
-    vec2 depthAndMass = depthsAndMasses[place];
-    return RawTexel(lightAndArea.rgb, lightAndArea.a, abs(depthAndMass.y), depthAndMass.x,
-                    separateMaterials ? texelMaterials[place] : 0u, depthAndMass.y < 0.0);
+    vec2 depthAndCoverage = depthsAndCoverages[place];
+    return ReducedTexel(lightAndArea.rgb, lightAndArea.a, abs(depthAndCoverage.y), depthAndCoverage.x,
+                    separateMaterials ? texelMaterials[place] : 0u, depthAndCoverage.y < 0.0);
 }
 
 // The four texels of the level below in shared memory: the first, and how far it is to the next.
@@ -85,7 +86,7 @@ int childPlace(Children children, int i) {
 }
 
 Surfaces reduceOne(Children children, int level) {
-    RawTexel texels[4];
+    ReducedTexel texels[4];
     [[unroll]] for (int i = 0; i < 4; ++i) {
         texels[i] = texelAt(childPlace(children, i));
     }
@@ -97,21 +98,21 @@ Surfaces reduceBoth(Children children, int level) {
     vec2 range = noRange;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = childPlace(children, i);
-        range = includeDepth(range, depthsAndMasses[place].x);
-        range = includeDepth(range, uintBitsToFloat(sharedSecond(place).z));
+        range = includeDepth(range, depthsAndCoverages[place].x);
+        range = includeDepth(range, depthOf(sharedSecond(place)));
     }
     range = rangeOfSurfaces(range, level);
     Surfaces surfaces = Surfaces(emptyTexel(), emptyTexel());
     [[unroll]] for (int i = 0; i < 4; ++i) {
         int place = childPlace(children, i);
         addToNearer(surfaces, texelAt(place), range);
-        addToNearer(surfaces, unpackRaw(sharedSecond(place)), range);
+        addToNearer(surfaces, unpackReduced(sharedSecond(place)), range);
     }
     return orderSurfaces(surfaces);
 }
 
 void reduceLevel(int level, ivec2 tile, int thread) {
-    int shift = rawLevels - level; // of the level's texels a side in a tile
+    int shift = tileLevels - level; // of the level's texels a side in a tile
     if (thread >> 2 * shift != 0) {
         return;
     }
@@ -126,14 +127,14 @@ void reduceLevel(int level, ivec2 tile, int thread) {
 }
 
 // Whether one surface is all that a tile holds, with or without holes: no texel of level 1 has left a pixel out or is two, and
-// all lie so close to each other that none of the coarser levels takes them for two. A barrier, for all threads. `place`: a texel
-// a thread.
+// all lie so close to each other that none of the coarser levels takes them for two. A barrier, for all threads. `place`: a
+// texel a thread.
 bool isOneSurface(int place, bool hasSecond) {
-    vec2 depthAndMass = depthsAndMasses[place];
-    if (depthAndMass.y != 0.0) {
-        bool isTwo = hasSecond || depthAndMass.y < 0.0;
-        atomicMin(nearest, floatBitsToUint(depthAndMass.x));
-        atomicMax(farthest, floatBitsToUint(isTwo ? 1e30 : depthAndMass.x));
+    vec2 depthAndCoverage = depthsAndCoverages[place];
+    if (depthAndCoverage.y != 0.0) {
+        bool isTwo = hasSecond || depthAndCoverage.y < 0.0;
+        atomicMin(nearest, floatBitsToUint(depthAndCoverage.x));
+        atomicMax(farthest, floatBitsToUint(isTwo ? 1e30 : depthAndCoverage.x));
     }
     barrier();
     float near = uintBitsToFloat(nearest);
@@ -143,7 +144,7 @@ bool isOneSurface(int place, bool hasSecond) {
 // Sums of texels of level 1 that all are one surface.
 struct SurfaceSum {
     vec4 lightAndArea;
-    vec2 depthAndMass; // depth times mass
+    vec2 depthAndCoverage; // depth times coverage
 };
 
 SurfaceSum noSurface() {
@@ -154,19 +155,19 @@ SurfaceSum sumTexels(ivec2 first, int span) {
     SurfaceSum sum = noSurface();
     for (int i = 0; i < span * span; ++i) {
         int place = (first.y + i / span) * side + first.x + i % span;
-        vec2 depthAndMass = depthsAndMasses[place];
+        vec2 depthAndCoverage = depthsAndCoverages[place];
         sum.lightAndArea += lightsAndAreas[place];
-        sum.depthAndMass += vec2(depthAndMass.x, 1.0) * depthAndMass.y;
+        sum.depthAndCoverage += vec2(depthAndCoverage.x, 1.0) * depthAndCoverage.y;
     }
     return sum;
 }
 
-// `share`: of one of the texels of level 1 that were summed.
-void storeMean(int level, ivec2 texel, SurfaceSum sum, float share) {
-    vec4 mean = share * sum.lightAndArea;
-    float mass = sum.depthAndMass.y;
-    float depth = sum.depthAndMass.x / max(mass, 1e-20);
-    rawTexels[texelIndex(level, texel)] = packRaw(RawTexel(mean.rgb, mean.a, share * mass, depth, 0u, false));
+// `each`: what one of the texels of level 1 that were summed counts.
+void storeMean(int level, ivec2 texel, SurfaceSum sum, float each) {
+    vec4 mean = each * sum.lightAndArea;
+    float coverage = sum.depthAndCoverage.y;
+    float depth = sum.depthAndCoverage.x / max(coverage, 1e-20);
+    reducedTexels[texelIndex(level, texel)] = packReduced(ReducedTexel(mean.rgb, mean.a, each * coverage, depth, 0u, false));
 }
 
 // The coarser levels of a tile of one surface: levels 2 and 3 at once, by different subgroups, both from level 1.
@@ -178,7 +179,7 @@ void reduceOneSurface(ivec2 tile, int thread) {
         ivec2 texel = ivec2(thread & 1, thread >> 1 & 1);
         SurfaceSum sum = sumTexels(4 * texel, 4);
         surfaceLights[thread - 32] = sum.lightAndArea;
-        surfaceDepths[thread - 32] = sum.depthAndMass;
+        surfaceDepths[thread - 32] = sum.depthAndCoverage;
         storeMean(3, 2 * tile + texel, sum, 1.0 / 16.0);
     }
     barrier();
@@ -186,24 +187,24 @@ void reduceOneSurface(ivec2 tile, int thread) {
         SurfaceSum sum = noSurface();
         for (int i = 0; i < 4; ++i) {
             sum.lightAndArea += surfaceLights[i];
-            sum.depthAndMass += surfaceDepths[i];
+            sum.depthAndCoverage += surfaceDepths[i];
         }
         storeMean(4, tile, sum, 1.0 / 64.0);
     }
 }
 
 // Returns the second surface.
-uvec4 storeQuad(Reduced reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
+uvec4 storeQuad(ReducedQuad reduced, uvec2 materials, ivec2 tile, ivec2 texel) {
     int index = texelIndex(1, tile * side + texel);
-    uint word = packQuad(reduced.weights & ~signBit, materials, separateMaterials ? reduced.texel.material : 0u);
-    if ((word & mixedBit) != 0u) {
+    uint word = packQuad(reduced.weights & ~spreadBit, materials, separateMaterials ? reduced.texel.material : 0u);
+    if (isMixed(word)) {
         quadMaterials[index] = materials;
     }
     if (!reduced.shareArea) {
         quadAreas[index] = packAreas(reduced.areas);
     }
     return storeSurfaces(Surfaces(reduced.texel, reduced.second), texel.y * side + texel.x, 1, tile * side + texel,
-                         uvec3(reduced.shareArea ? 0u : areasBit, reduced.weights & signBit, word));
+                         uvec3(reduced.shareArea ? 0u : areasBit, reduced.weights & spreadBit, word));
 }
 
 // The light of a tile without subsurface pixels leaves where it enters, row by row.
@@ -226,7 +227,7 @@ void clearTile(ivec2 tile, int thread) {
     int texel = thread < 16 ? thread : thread & 3;
     int width = tileSize >> level;
     if (thread <= 20) {
-        rawTexels[texelIndex(level, tile * width + ivec2(texel % width, texel / width))] = uvec4(0u);
+        reducedTexels[texelIndex(level, tile * width + ivec2(texel % width, texel / width))] = uvec4(0u);
     }
 }
 
@@ -243,7 +244,7 @@ void main() {
     uvec4 ids = fetchIds(first);
     if (thread == 0) {
         occupied = 0u;
-        roughness = 0u;
+        tileBits = 0u;
         nearest = ~0u;
         farthest = 0u;
         if (tile == ivec2(0)) {
@@ -268,25 +269,25 @@ void main() {
     // Its ids were fetched first, so that an empty tile ends sooner; all the rest before anything is asked, so that fetches
     // overlap.
     RingPixel ring = fetchRing(tile * tileSize, ringPlace(thread));
-    Block block = fetchBlock(first, ids);
-    decodeBlock(block, first);
+    QuadPixels quad = fetchQuad(first, ids);
+    decodeQuad(quad, first);
     int place = depthPlace(2 * texel);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        depths[place + (i & 1) + (i >> 1) * pitch] = floatBitsToUint(block.depth[i]);
+        depths[place + (i & 1) + (i >> 1) * pitch] = floatBitsToUint(quad.depth[i]);
     }
     depths[ring.place] = floatBitsToUint(receivingDepth(ring.material, ring.pixel, ring.depth));
     barrier();
-    uvec2 materials = uvec2(block.material[0] | block.material[1] << 16, block.material[2] | block.material[3] << 16);
-    uvec4 second = storeQuad(reduceBlock(block, place, texel), materials, tile, texel);
+    uvec2 materials = uvec2(quad.material[0] | quad.material[1] << 16, quad.material[2] | quad.material[3] << 16);
+    uvec4 second = storeQuad(reduceQuad(quad, place, texel), materials, tile, texel);
     barrier();
     if (thread == 0) {
-        tileEntries[tileIndex(tile)] = tileOccupied | (roughness & ~notFull);
+        tileEntries[tileIndex(tile)] = tileOccupied | (tileBits & ~notFull);
     }
-    // A tile is whole where no pixel is missing and no step from pixel to pixel is longer than bankSmoothDepth pixel widths (with
-    // second surfaces: bankContinuedStep), so that the four that a texel is made of are no further apart than
+    // A tile is unbroken where no pixel is missing and no step from pixel to pixel is longer than bankSmoothDepth pixel widths
+    // (with second surfaces: bankContinuedStep), so that the four that a texel is made of are no further apart than
     // bankSurfaceSeparation (bankSecondSeparation) times its width: one surface on every level.
-    bool isWhole = (roughness & ~tileBright) == 0u;
-    if (!separateMaterials && (isWhole || isOneSurface(texel.y * side + texel.x, second != uvec4(0u)))) {
+    bool isUnbroken = (tileBits & ~tileBright) == 0u;
+    if (!separateMaterials && (isUnbroken || isOneSurface(texel.y * side + texel.x, second != uvec4(0u)))) {
         reduceOneSurface(tile, thread);
         return;
     }
@@ -294,7 +295,7 @@ void main() {
         storeSharedSecond(texel.y * side + texel.x, second);
         barrier();
     }
-    [[unroll]] for (int level = 2; level <= rawLevels; ++level) {
+    [[unroll]] for (int level = 2; level <= tileLevels; ++level) {
         reduceLevel(level, tile, thread);
         barrier();
     }

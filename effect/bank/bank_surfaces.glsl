@@ -1,10 +1,10 @@
 // How passes A and B of `bank-surfaces` make a texel of two surfaces from those of the level below. docs/scatter.md. Included
-// after bank.glsl.
+// by them after bank_reduction.glsl.
 
-// A texel's two surfaces, the one with more mass first; the second is empty where all is one surface.
+// A texel's two surfaces, the one with more coverage first; the second is empty where all is one surface.
 struct Surfaces {
-    RawTexel first;
-    RawTexel second;
+    ReducedTexel first;
+    ReducedTexel second;
 };
 
 // Nearest and farthest depth of what they are already, and of one more, 0 = none.
@@ -13,19 +13,19 @@ vec2 includeDepth(vec2 range, float depth) {
 }
 
 // Adds a texel of the level below, or its second surface, to the surface it belongs to. `first` is the nearer one, for now.
-void addToNearer(inout Surfaces surfaces, RawTexel texel, vec2 range) {
+void addToNearer(inout Surfaces surfaces, ReducedTexel texel, vec2 range) {
     bool isNearer = texel.depth - range.x <= range.y - texel.depth;
-    float share = isNearer ? 0.25 : 0.0;
-    float otherShare = 0.25 - share;
-    surfaces.first.light += share * texel.light;
-    surfaces.first.area += share * texel.area;
-    surfaces.first.mass += share * texel.mass;
-    surfaces.first.depth += share * texel.mass * texel.depth;
+    float nearer = isNearer ? 0.25 : 0.0; // of the new texel
+    float farther = 0.25 - nearer;
+    surfaces.first.light += nearer * texel.light;
+    surfaces.first.area += nearer * texel.area;
+    surfaces.first.coverage += nearer * texel.coverage;
+    surfaces.first.depth += nearer * texel.coverage * texel.depth;
     surfaces.first.dropped = surfaces.first.dropped || (isNearer && texel.dropped);
-    surfaces.second.light += otherShare * texel.light;
-    surfaces.second.area += otherShare * texel.area;
-    surfaces.second.mass += otherShare * texel.mass;
-    surfaces.second.depth += otherShare * texel.mass * texel.depth;
+    surfaces.second.light += farther * texel.light;
+    surfaces.second.area += farther * texel.area;
+    surfaces.second.coverage += farther * texel.coverage;
+    surfaces.second.depth += farther * texel.coverage * texel.depth;
     surfaces.second.dropped = surfaces.second.dropped || (!isNearer && texel.dropped);
 }
 
@@ -34,21 +34,21 @@ vec2 rangeOfSurfaces(vec2 range, int level) {
     return range.y - range.x <= separationAt(level, range.x) ? vec2(range.x, 2.0 * range.y) : range;
 }
 
-// Of sums of depth times mass their mean; the surface with more mass first.
+// Of sums of depth times coverage their mean; the surface with more coverage first.
 Surfaces orderSurfaces(Surfaces sums) {
-    RawTexel near = sums.first;
-    RawTexel far = sums.second;
-    bool areTwo = min(near.mass, far.mass) > 0.0;
+    ReducedTexel near = sums.first;
+    ReducedTexel far = sums.second;
+    bool areTwo = min(near.coverage, far.coverage) > 0.0;
     near.dropped = near.dropped || areTwo;
     far.dropped = far.dropped || areTwo;
-    near.depth /= max(near.mass, 1e-20);
-    far.depth /= max(far.mass, 1e-20);
-    return near.mass >= far.mass ? Surfaces(near, far) : Surfaces(far, near);
+    near.depth /= max(near.coverage, 1e-20);
+    far.depth /= max(far.coverage, 1e-20);
+    return near.coverage >= far.coverage ? Surfaces(near, far) : Surfaces(far, near);
 }
 
 // A texel's own words, with a note of whether there is a second surface.
 uvec4 packFirst(Surfaces surfaces) {
-    uvec4 words = packRaw(surfaces.first);
-    words.w |= surfaces.second.mass > 0.0 ? secondBit : 0u;
+    uvec4 words = packReduced(surfaces.first);
+    words.w |= surfaces.second.coverage > 0.0 ? secondBit : 0u;
     return words;
 }

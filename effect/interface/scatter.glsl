@@ -1,4 +1,5 @@
-// What every scatter pass includes: inputs, materials, and who gives light to whom.
+// What every scatter pass includes: inputs, materials, and who gives light to whom. Declares `parameters`, `view`, `materials`
+// and the images; needs nothing. POSSIBLE_FLAGS may be defined (pixel_geometry.glsl).
 #extension GL_EXT_samplerless_texture_functions : require
 
 #include "blocks.h"

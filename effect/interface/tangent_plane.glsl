@@ -1,4 +1,5 @@
-// The surface a pixel sees as a flat patch, whose slope the normal image or differences of depth give.
+// The surface a pixel sees as a flat patch, whose slope the normal image or differences of depth give. Needs
+// pixel_geometry.glsl and `normalImage`.
 
 struct TangentPlane {
     vec3 x;     // how the surface point moves from one pixel to the next in x, mm

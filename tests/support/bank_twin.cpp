@@ -21,14 +21,14 @@ BlockSize blockSizeOf(int level) {
     return level == bankLevels ? BlockSize{6, 2} : BlockSize{16, 8};
 }
 
-// What a 2x2 block of texels becomes: those of one surface. Levels that keep a second surface have up to eight.
-struct Block {
-    std::vector<const RawTexel*> texels;
+// The 2x2 texels that one of the next level is made of. Levels that keep a second surface have up to eight.
+struct Children {
+    std::vector<const ReducedTexel*> texels;
     double nearest = 1e300;
     double farthest = 0;
 
-    void add(const RawTexel* texel) {
-        if (texel != nullptr && texel->mass > 0) {
+    void add(const ReducedTexel* texel) {
+        if (texel != nullptr && texel->coverage > 0) {
             texels.push_back(texel);
             nearest = std::min(nearest, texel->depth);
             farthest = std::max(farthest, texel->depth);
@@ -36,16 +36,16 @@ struct Block {
     }
 
     // The 2x2 of a level that are a texel of the next.
-    void addFour(const TwinLevel<RawTexel>& level, int x, int y) {
+    void addFour(const TwinLevel<ReducedTexel>& level, int x, int y) {
         for (int child = 0; child < 4; ++child) {
             add(level.at(2 * x + (child & 1), 2 * y + (child >> 1)));
         }
     }
 
-    template <typename Keep> RawTexel sum(Keep keep) const {
-        RawTexel result;
+    template <typename Keep> ReducedTexel sum(Keep keep) const {
+        ReducedTexel result;
         double depth = 0;
-        for (const RawTexel* texel : texels) {
+        for (const ReducedTexel* texel : texels) {
             if (!keep(*texel)) {
                 result.dropped = true;
                 continue;
@@ -54,30 +54,30 @@ struct Block {
                 result.light[channel] += texel->light[channel] / 4;
             }
             result.area += texel->area / 4;
-            result.mass += texel->mass / 4;
+            result.coverage += texel->coverage / 4;
             result.dropped |= texel->dropped;
-            depth += texel->mass / 4 * texel->depth;
+            depth += texel->coverage / 4 * texel->depth;
         }
-        result.depth = result.mass > 0 ? depth / result.mass : 0;
+        result.depth = result.coverage > 0 ? depth / result.coverage : 0;
         noteDepths(result, keep);
         return result;
     }
 
     // The variance of depths, mm², and how much farther the middle of the light, its channels' sum, is than theirs, mm.
-    template <typename Keep> void noteDepths(RawTexel& result, Keep keep) const {
+    template <typename Keep> void noteDepths(ReducedTexel& result, Keep keep) const {
         double sum = 0;
-        for (const RawTexel* texel : texels) {
-            const double share = keep(*texel) ? texel->mass / 4 / result.mass : 0;
+        for (const ReducedTexel* texel : texels) {
+            const double part = keep(*texel) ? texel->coverage / 4 / result.coverage : 0;
             const double away = texel->depth - result.depth;
-            const double light = share / texel->area * (texel->light[0] + texel->light[1] + texel->light[2]);
+            const double light = part / texel->area * (texel->light[0] + texel->light[1] + texel->light[2]);
             sum += light;
-            result.depthVariance += share * away * away;
+            result.depthVariance += part * away * away;
             result.lightSlope += light * away;
         }
         result.lightSlope /= std::max(sum, 1e-20);
     }
 
-    bool isNear(const RawTexel& texel) const { return texel.depth - nearest <= farthest - texel.depth; }
+    bool isNear(const ReducedTexel& texel) const { return texel.depth - nearest <= farthest - texel.depth; }
 };
 
 // Whether depth goes on from pixel to pixel in a row or column: no step is longer than `limit`, or it rises or falls.
@@ -98,11 +98,11 @@ double BankTwin::stretch(int x, int y) const {
 
 // Area of a pixel's surface relative to one that faces the camera.
 double BankTwin::pixelArea(int x, int y) const {
-    const auto neighbor = [&](int dx, int dy) -> const RawTexel* {
-        const RawTexel* pixel = raw_[0].at(x + dx, y + dy);
-        return pixel != nullptr && pixel->mass > 0 ? pixel : nullptr;
+    const auto neighbor = [&](int dx, int dy) -> const ReducedTexel* {
+        const ReducedTexel* pixel = reduced_[0].at(x + dx, y + dy);
+        return pixel != nullptr && pixel->coverage > 0 ? pixel : nullptr;
     };
-    const RawTexel& pixel = *raw_[0].at(x, y);
+    const ReducedTexel& pixel = *reduced_[0].at(x, y);
     const double width = texelWidth(0, pixel.depth);
     const double stepX = pixelStep(neighbor(-1, 0), pixel, neighbor(1, 0), width);
     const double stepY = pixelStep(neighbor(0, -1), pixel, neighbor(0, 1), width);
@@ -115,14 +115,14 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
     }
     tilesX_ = (scene.width + tileSize - 1) / tileSize;
     tilesY_ = (scene.height + tileSize - 1) / tileSize;
-    raw_[0].width = scene.width;
-    raw_[0].height = scene.height;
+    reduced_[0].width = scene.width;
+    reduced_[0].height = scene.height;
     for (int y = 0; y < scene.height; ++y) {
         for (int x = 0; x < scene.width; ++x) {
             const std::size_t i = scene.index(x, y);
             const bool scatters = scene.materialId[i] != 0;
-            raw_[0].texels.push_back(scatters ? RawTexel{scene.irradiance[i], 1, 1, scene.depth[i] * stretch(x, y)}
-                                              : RawTexel{});
+            reduced_[0].texels.push_back(
+                scatters ? ReducedTexel{scene.irradiance[i], 1, 1, scene.depth[i] * stretch(x, y)} : ReducedTexel{});
         }
     }
     for (int y = 0; settings.areaWeights && y < scene.height; ++y) {
@@ -146,8 +146,8 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
 }
 
 void BankTwin::weighByArea(int x, int y) {
-    RawTexel& pixel = raw_[0].texels[scene_.index(x, y)];
-    if (pixel.mass <= 0) {
+    ReducedTexel& pixel = reduced_[0].texels[scene_.index(x, y)];
+    if (pixel.coverage <= 0) {
         return;
     }
     pixel.area = pixelArea(x, y);
@@ -156,15 +156,15 @@ void BankTwin::weighByArea(int x, int y) {
     }
 }
 
-// Whether a texel of level 1 is a plain block: its pixels and those beside them all scatter, and no step between them
-// is long.
-bool BankTwin::isPlainBlock(int x, int y) const {
+// Whether a texel of level 1 is a continuous quad: its pixels and those beside them all scatter, and no step between
+// them is long.
+bool BankTwin::isContinuousQuad(int x, int y) const {
     const auto longestStep = [&](int first, int line, bool inRow) {
         double longest = 0;
-        const RawTexel* before = nullptr;
+        const ReducedTexel* before = nullptr;
         for (int i = first - 1; i <= first + 2; ++i) {
-            const RawTexel* pixel = inRow ? raw_[0].at(i, line) : raw_[0].at(line, i);
-            if (pixel == nullptr || pixel->mass <= 0) {
+            const ReducedTexel* pixel = inRow ? reduced_[0].at(i, line) : reduced_[0].at(line, i);
+            if (pixel == nullptr || pixel->coverage <= 0) {
                 return 1e300;
             }
             longest = before != nullptr ? std::max(longest, std::abs(pixel->depth - before->depth)) : 0;
@@ -176,30 +176,30 @@ bool BankTwin::isPlainBlock(int x, int y) const {
     for (int i = 0; i < 2; ++i) {
         longest = std::max({longest, longestStep(2 * x, 2 * y + i, true), longestStep(2 * y, 2 * x + i, false)});
     }
-    const RawTexel* first = raw_[0].at(2 * x, 2 * y);
+    const ReducedTexel* first = reduced_[0].at(2 * x, 2 * y);
     return first != nullptr && longest <= constants::bankContinuedStep * texelWidth(0, first->depth);
 }
 
-// The pixels of plain blocks have their mean area where it hardly varies.
+// The pixels of continuous quads have their mean area where it hardly varies.
 void BankTwin::shareAreas() {
-    for (int block = 0; block < raw_[1].width * raw_[1].height; ++block) {
-        const int x = block % raw_[1].width;
-        const int y = block / raw_[1].width;
-        if (!isPlainBlock(x, y)) {
+    for (int quad = 0; quad < reduced_[1].width * reduced_[1].height; ++quad) {
+        const int x = quad % reduced_[1].width;
+        const int y = quad / reduced_[1].width;
+        if (!isContinuousQuad(x, y)) {
             continue;
         }
-        std::array<RawTexel*, 4> pixels;
+        std::array<ReducedTexel*, 4> pixels;
         double mean = 0;
         double square = 0;
         for (int i = 0; i < 4; ++i) {
-            pixels[i] = &raw_[0].texels[scene_.index(2 * x + i % 2, 2 * y + i / 2)];
+            pixels[i] = &reduced_[0].texels[scene_.index(2 * x + i % 2, 2 * y + i / 2)];
             mean += pixels[i]->area / 4;
             square += pixels[i]->area * pixels[i]->area / 4;
         }
         if (square > (1 + constants::bankSharedAreaVariance) * mean * mean) {
             continue;
         }
-        for (RawTexel* pixel : pixels) {
+        for (ReducedTexel* pixel : pixels) {
             for (double& value : pixel->light) {
                 value *= mean / pixel->area;
             }
@@ -219,52 +219,55 @@ double BankTwin::separationAt(int level, double nearest) const {
 }
 
 // The next level's texels, of one surface each.
-TwinLevel<RawTexel> BankTwin::reduced(const TwinLevel<RawTexel>& from, int level) const {
-    TwinLevel<RawTexel> to;
+TwinLevel<ReducedTexel> BankTwin::reduce(const TwinLevel<ReducedTexel>& from, int level) const {
+    TwinLevel<ReducedTexel> to;
     // Whole tiles: what lies outside the image is empty.
     to.width = level == 1 ? tilesX_ * tileSize / 2 : (from.width + 1) / 2;
     to.height = level == 1 ? tilesY_ * tileSize / 2 : (from.height + 1) / 2;
     for (int i = 0; i < to.width * to.height; ++i) {
-        Block block;
-        block.addFour(from, i % to.width, i / to.width);
-        const double limit = constants::bankSurfaceSeparation * texelWidth(level, block.nearest);
-        const RawTexel front = block.sum([&](const RawTexel& t) { return t.depth - block.nearest <= limit; });
-        const RawTexel back = block.sum([&](const RawTexel& t) { return block.farthest - t.depth <= limit; });
-        to.texels.push_back(front.mass >= back.mass ? front : back);
+        Children children;
+        children.addFour(from, i % to.width, i / to.width);
+        const double limit = constants::bankSurfaceSeparation * texelWidth(level, children.nearest);
+        const ReducedTexel front =
+            children.sum([&](const ReducedTexel& t) { return t.depth - children.nearest <= limit; });
+        const ReducedTexel back =
+            children.sum([&](const ReducedTexel& t) { return children.farthest - t.depth <= limit; });
+        to.texels.push_back(front.coverage >= back.coverage ? front : back);
     }
     return to;
 }
 
 void BankTwin::reduceLevel(int level) {
-    TwinLevel<RawTexel>& to = raw_[level];
+    TwinLevel<ReducedTexel>& to = reduced_[level];
     // The coarsest level is made of first surfaces alone.
     const bool isLast = level == constants::bankSecondLevels + 1;
-    to = reduced(settings_.secondSurfaces && isLast ? reduced(raw_[level - 2], level - 1) : raw_[level - 1], level);
-    TwinLevel<RawTexel>& seconds = rawSeconds_[level];
+    to = reduce(settings_.secondSurfaces && isLast ? reduce(reduced_[level - 2], level - 1) : reduced_[level - 1],
+                level);
+    TwinLevel<ReducedTexel>& seconds = reducedSeconds_[level];
     seconds = to;
-    std::fill(seconds.texels.begin(), seconds.texels.end(), RawTexel{});
+    std::fill(seconds.texels.begin(), seconds.texels.end(), ReducedTexel{});
     for (std::size_t i = 0; hasSeconds(level) && i < to.texels.size(); ++i) {
-        Block block;
+        Children children;
         const int x = static_cast<int>(i) % to.width;
         const int y = static_cast<int>(i) / to.width;
-        block.addFour(raw_[level - 1], x, y);
+        children.addFour(reduced_[level - 1], x, y);
         if (hasSeconds(level - 1)) {
-            block.addFour(rawSeconds_[level - 1], x, y);
+            children.addFour(reducedSeconds_[level - 1], x, y);
         }
-        RawTexel& texel = to.texels[i];
-        texel = block.sum([](const RawTexel&) { return true; });
-        const bool isPlain = level == 1 && isPlainBlock(x, y);
-        if (!isPlain && block.farthest - block.nearest > separationAt(level, block.nearest)) {
-            texel = block.sum([&](const RawTexel& t) { return block.isNear(t); });
-            seconds.texels[i] = block.sum([&](const RawTexel& t) { return !block.isNear(t); });
+        ReducedTexel& texel = to.texels[i];
+        texel = children.sum([](const ReducedTexel&) { return true; });
+        const bool isContinuous = level == 1 && isContinuousQuad(x, y);
+        if (!isContinuous && children.farthest - children.nearest > separationAt(level, children.nearest)) {
+            texel = children.sum([&](const ReducedTexel& t) { return children.isNear(t); });
+            seconds.texels[i] = children.sum([&](const ReducedTexel& t) { return !children.isNear(t); });
         }
-        if (texel.mass < seconds.texels[i].mass) {
+        if (texel.coverage < seconds.texels[i].coverage) {
             std::swap(texel, seconds.texels[i]);
         }
     }
     for (std::size_t i = 0; i < to.texels.size(); ++i) {
-        RawTexel& texel = to.texels[i];
-        const bool noted = level == 1 && isRough(static_cast<int>(i) % to.width, static_cast<int>(i) / to.width);
+        ReducedTexel& texel = to.texels[i];
+        const bool noted = level == 1 && hasStep(static_cast<int>(i) % to.width, static_cast<int>(i) / to.width);
         const double width = texelWidth(level, texel.depth);
         texel.depthVariance *= noted ? 1 / (width * width) : 0;
         texel.lightSlope *= noted ? 1 / (width * (0.5 * constants::bankPixelDepthVariance + texel.depthVariance)) : 0;
@@ -275,9 +278,9 @@ void BankTwin::reduceLevel(int level) {
 
 void BankTwin::blurLevel(int level) {
     TwinLevel<BlurredTexel>& to = blurred_[level];
-    to.width = raw_[level].width;
-    to.height = raw_[level].height;
-    to.texels.resize(raw_[level].texels.size());
+    to.width = reduced_[level].width;
+    to.height = reduced_[level].height;
+    to.texels.resize(reduced_[level].texels.size());
     blurredSeconds_[level] = to;
     const BlockSize block = blockSizeOf(level);
     for (int y = 0; y < to.height; y += block.height) {
@@ -288,14 +291,14 @@ void BankTwin::blurLevel(int level) {
 }
 
 // Whether every texel within reach of a block is full, with nothing left out and no step between two of them.
-bool BankTwin::isWhole(int level, int firstX, int firstY) const {
+bool BankTwin::isUnbroken(int level, int firstX, int firstY) const {
     const BlockSize block = blockSizeOf(level);
     const int endX = firstX + block.width + 2;
     const int endY = firstY + block.height + 2;
     for (int y = firstY - 2; y < endY; ++y) {
         for (int x = firstX - 2; x < endX; ++x) {
-            const RawTexel* texel = raw_[level].at(x, y);
-            if (texel == nullptr || texel->mass != 1 || texel->dropped) {
+            const ReducedTexel* texel = reduced_[level].at(x, y);
+            if (texel == nullptr || texel->coverage != 1 || texel->dropped) {
                 return false;
             }
         }
@@ -310,23 +313,23 @@ bool BankTwin::isWhole(int level, int firstX, int firstY) const {
     return true;
 }
 
-// In a whole block nothing is missing of a kernel, however steep it stands.
+// In an unbroken block nothing is missing of a kernel, however steep it stands.
 void BankTwin::blurBlock(int level, int firstX, int firstY) {
     TwinLevel<BlurredTexel>& to = blurred_[level];
     const BlockSize block = blockSizeOf(level);
-    const bool whole = isWhole(level, firstX, firstY);
+    const bool unbroken = isUnbroken(level, firstX, firstY);
     for (int y = firstY; y < std::min(firstY + block.height, to.height); ++y) {
         for (int x = firstX; x < std::min(firstX + block.width, to.width); ++x) {
             BlurredTexel& texel = to.texels[static_cast<std::size_t>(y) * to.width + x];
             texel = blurTexel(level, x, y);
-            if (whole) {
+            if (unbroken) {
                 for (double& value : texel.light) {
-                    value /= texel.mass;
+                    value /= texel.coverage;
                 }
-                texel.mass = 1;
+                texel.coverage = 1;
             }
-            const RawTexel* second = rawSeconds_[level].at(x, y);
-            if (second->mass > 0) {
+            const ReducedTexel* second = reducedSeconds_[level].at(x, y);
+            if (second->coverage > 0) {
                 blurredSeconds_[level].texels[static_cast<std::size_t>(y) * to.width + x] =
                     blurAt(level, x, y, second->depth);
             }
@@ -336,41 +339,41 @@ void BankTwin::blurBlock(int level, int firstX, int firstY) {
 
 // Whether two full texels beside each other are on different surfaces, or on a steep one.
 bool BankTwin::isStep(int level, int x, int y, int besideX, int besideY) const {
-    const double depth = raw_[level].at(x, y)->depth;
-    const double difference = std::abs(raw_[level].at(besideX, besideY)->depth - depth);
+    const double depth = reduced_[level].at(x, y)->depth;
+    const double difference = std::abs(reduced_[level].at(besideX, besideY)->depth - depth);
     return difference > constants::bankSmoothDepth * texelWidth(level, depth);
 }
 
 BlurredTexel BankTwin::blurTexel(int level, int x, int y) const {
-    const TwinLevel<RawTexel>& raw = raw_[level];
-    const RawTexel& own = *raw.at(x, y);
-    if (own.mass > 0) {
+    const TwinLevel<ReducedTexel>& texels = reduced_[level];
+    const ReducedTexel& own = *texels.at(x, y);
+    if (own.coverage > 0) {
         BlurredTexel texel = blurAt(level, x, y, own.depth);
-        texel.plain = !own.dropped && isPlain(level, x, y, own.depth);
+        texel.continuous = !own.dropped && goesOn(level, x, y, own.depth);
         return texel;
     }
     // An empty texel stands on the surface its neighbours are on.
-    double mass = 0;
+    double coverage = 0;
     double sum = 0;
     for (int i = 0; i < 9; ++i) {
-        const RawTexel* tap = raw.at(x + i % 3 - 1, y + i / 3 - 1);
-        mass += tap != nullptr ? tap->mass : 0;
-        sum += tap != nullptr ? tap->mass * tap->depth : 0;
+        const ReducedTexel* tap = texels.at(x + i % 3 - 1, y + i / 3 - 1);
+        coverage += tap != nullptr ? tap->coverage : 0;
+        sum += tap != nullptr ? tap->coverage * tap->depth : 0;
     }
-    if (mass <= 0) {
+    if (coverage <= 0) {
         return {};
     }
-    BlurredTexel texel = blurAt(level, x, y, sum / mass);
-    texel.plain = isPlain(level, x, y, sum / mass);
+    BlurredTexel texel = blurAt(level, x, y, sum / coverage);
+    texel.continuous = goesOn(level, x, y, sum / coverage);
     return texel;
 }
 
 // Whether no texel beside one is on another surface, or on this one's steep side.
-bool BankTwin::isPlain(int level, int x, int y, double depth) const {
+bool BankTwin::goesOn(int level, int x, int y, double depth) const {
     const double limit = constants::bankSmoothDepth * texelWidth(level, depth);
     for (int i = 1; i < 9; i += 2) {
-        const RawTexel* beside = raw_[level].at(x + i % 3 - 1, y + i / 3 - 1);
-        if (beside != nullptr && beside->mass > 0 && std::abs(beside->depth - depth) > limit) {
+        const ReducedTexel* beside = reduced_[level].at(x + i % 3 - 1, y + i / 3 - 1);
+        if (beside != nullptr && beside->coverage > 0 && std::abs(beside->depth - depth) > limit) {
             return false;
         }
     }
@@ -384,22 +387,22 @@ BlurredTexel BankTwin::blurAt(int level, int x, int y, double depth) const {
         settings_.secondSurfaces ? constants::bankSecondBlurDepthVariance : constants::bankBlurDepthVariance;
     SurfaceSum sum;
     for (int i = 0; i < 50; ++i) {
-        const TwinLevel<RawTexel>& raw = i < 25 ? raw_[level] : rawSeconds_[level];
-        sum.add(raw.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth, variance,
+        const TwinLevel<ReducedTexel>& texels = i < 25 ? reduced_[level] : reducedSeconds_[level];
+        sum.add(texels.at(x + i % 5 - 2, y + i / 5 % 5 - 2), binomial[i % 5] * binomial[i / 5 % 5], depth, variance,
                 width);
     }
-    return {sum.lightOfMass(), sum.mass(), depth, false};
+    return {sum.lightOfCoverage(), sum.coverage(), depth, false};
 }
 
-// Whether a 2x2 block of pixels, with those beside it, has a step to another surface or left something out.
-bool BankTwin::isRough(int blockX, int blockY) const {
+// Whether a quad, with those beside it, has a step to another surface or left something out.
+bool BankTwin::hasStep(int quadX, int quadY) const {
     const auto depthAt = [&](int x, int y) {
-        const RawTexel* pixel = raw_[0].at(x, y);
+        const ReducedTexel* pixel = reduced_[0].at(x, y);
         return pixel != nullptr ? pixel->depth : 0;
     };
-    const int x = 2 * blockX;
-    const int y = 2 * blockY;
-    std::array<std::array<double, 4>, 4> lines; // the block's rows, its columns, with a pixel beside at either end
+    const int x = 2 * quadX;
+    const int y = 2 * quadY;
+    std::array<std::array<double, 4>, 4> lines; // the quad's rows, its columns, with a pixel beside at either end
     for (int i = 0; i < 4; ++i) {
         lines[0][i] = depthAt(x - 1 + i, y);
         lines[1][i] = depthAt(x - 1 + i, y + 1);
@@ -420,16 +423,16 @@ bool BankTwin::isRough(int blockX, int blockY) const {
     const double limit =
         (hasHole ? constants::bankSmoothHoleDepth : constants::bankSmoothDepth) * texelWidth(0, farthest);
     const auto smooth = [&](const std::array<double, 4>& line) { return isSmooth(line, limit); };
-    return raw_[1].at(blockX, blockY)->dropped ||
+    return reduced_[1].at(quadX, quadY)->dropped ||
            (longest > limit &&
             (hasHole || longest > separationAt(1, farthest) || !std::all_of(lines.begin(), lines.end(), smooth)));
 }
 
-// Whether a block of a part, or one beside it, is rough.
+// Whether a quad of a part, or one beside it, has a step.
 bool BankTwin::isEdgePart(int firstX, int firstY) const {
     for (int y = firstY / 2 - 1; y <= (firstY + partHeight) / 2; ++y) {
         for (int x = firstX / 2 - 1; x <= (firstX + partWidth) / 2; ++x) {
-            if (raw_[1].at(x, y) != nullptr && isRough(x, y)) {
+            if (reduced_[1].at(x, y) != nullptr && hasStep(x, y)) {
                 return true;
             }
         }
@@ -437,9 +440,9 @@ bool BankTwin::isEdgePart(int firstX, int firstY) const {
     return !settings_.smoothTiles;
 }
 
-// Levels of which a region loads a texel that is not plain.
-unsigned BankTwin::roughLevels(int firstX, int firstY, int width, int height) const {
-    unsigned rough = 0;
+// Levels of which a region loads a texel that is not continuous.
+unsigned BankTwin::steppedLevels(int firstX, int firstY, int width, int height) const {
+    unsigned stepped = 0;
     for (int level = 2; level <= bankLevels; ++level) {
         const int texel = 1 << level;
         const int columns = width / texel + 2;
@@ -447,10 +450,10 @@ unsigned BankTwin::roughLevels(int firstX, int firstY, int width, int height) co
         for (int i = 0; i < columns * rows; ++i) {
             const int x = ((firstX - texel / 2) >> level) + i % columns;
             const int y = ((firstY - texel / 2) >> level) + i / columns;
-            rough |= blurred_[level].nearest(x, y).plain ? 0u : 1u << level;
+            stepped |= blurred_[level].nearest(x, y).continuous ? 0u : 1u << level;
         }
     }
-    return rough;
+    return stepped;
 }
 
 // Combines the pixels of a smooth region, and of its parts that are edge regions.
@@ -461,9 +464,9 @@ void BankTwin::combineRegion(int firstX, int firstY) {
         const int x = firstX + part % 2 * partWidth;
         const int y = firstY + part / 2 * partHeight;
         edges[part] = isEdgePart(x, y);
-        edgeRegions[part] = {false, roughLevels(x, y, partWidth, partHeight)};
+        edgeRegions[part] = {false, steppedLevels(x, y, partWidth, partHeight)};
     }
-    const Region smooth{true, roughLevels(firstX, firstY, 2 * partWidth, 2 * partHeight)};
+    const Region smooth{true, steppedLevels(firstX, firstY, 2 * partWidth, 2 * partHeight)};
     const bool noneSmooth = std::count(edges.begin(), edges.end(), true) > constants::bankMostEdgeParts;
     for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); y += 2) {
         for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); x += 2) {

@@ -17,11 +17,11 @@ struct TwinSettings {
 };
 
 /// A texel of the reduced pyramid.
-struct RawTexel {
+struct ReducedTexel {
     Rgb light{};          ///< Σ area · irradiance / pixels
     double area = 0;      ///< Σ area / pixels, area relative to a surface facing the camera
-    double mass = 0;      ///< [0, 1] share of the texel's pixels that count
-    double depth = 0;     ///< mm; 0 where mass is 0
+    double coverage = 0;  ///< [0, 1] share of the texel's pixels that count
+    double depth = 0;     ///< mm; 0 where coverage is 0
     bool dropped = false; ///< pixels of another surface were left out, here or further down
     // Of level 1, where its pixels' depths make a step; elsewhere 0:
     double depthVariance = 0; ///< of these depths, texel widths²
@@ -31,10 +31,10 @@ struct RawTexel {
 
 /// A texel of the blurred pyramid.
 struct BlurredTexel {
-    Rgb light{};        ///< mean irradiance · mass
-    double mass = 0;    ///< [0, 1] share of the kernel that lies on the surface
-    double depth = 0;   ///< mm; 0 where nothing is near
-    bool plain = false; ///< there is a surface, without a step beside it or pixels left out
+    Rgb light{};             ///< mean irradiance · coverage
+    double coverage = 0;     ///< [0, 1] share of the kernel that lies on the surface
+    double depth = 0;        ///< mm; 0 where nothing is near
+    bool continuous = false; ///< there is a surface, without a step beside it or pixels left out
 };
 
 template <typename Texel> struct TwinLevel {
@@ -60,7 +60,7 @@ public:
     explicit BankTwin(const ScatterScene& scene, const TwinSettings& settings = {});
 
     /// Pass A. [level 1 … bankLevels]
-    const TwinLevel<RawTexel>& raw(int level) const { return raw_[level]; }
+    const TwinLevel<ReducedTexel>& reduced(int level) const { return reduced_[level]; }
     /// Pass B. [level 2 … bankLevels]
     const TwinLevel<BlurredTexel>& blurred(int level) const { return blurred_[level]; }
     /// Pass C: the scattered irradiance of every pixel.
@@ -71,26 +71,26 @@ private:
     /// What is combined together: a smooth region, or an edge region.
     struct Region {
         bool smooth = false;
-        unsigned roughLevels = 0; ///< bit l: some texel of level l in reach is not plain
+        unsigned steppedLevels = 0; ///< bit l: some texel of level l in reach is not continuous
     };
 
     double texelWidth(int level, double depth) const { return (1 << level) * depth / scene_.focalLength; }
     bool hasSeconds(int level) const;
     double separationAt(int level, double nearest) const;
-    TwinLevel<RawTexel> reduced(const TwinLevel<RawTexel>& from, int level) const;
+    TwinLevel<ReducedTexel> reduce(const TwinLevel<ReducedTexel>& from, int level) const;
     void reduceLevel(int level);
     void blurLevel(int level);
-    bool isWhole(int level, int firstX, int firstY) const;
+    bool isUnbroken(int level, int firstX, int firstY) const;
     void blurBlock(int level, int firstX, int firstY);
     bool isStep(int level, int x, int y, int besideX, int besideY) const;
     BlurredTexel blurTexel(int level, int x, int y) const;
     BlurredTexel blurAt(int level, int x, int y, double depth) const;
     BlurredTexel nearerSurface(int level, int x, int y, double depth) const;
-    bool isRough(int blockX, int blockY) const;
+    bool hasStep(int quadX, int quadY) const;
     bool isEdgePart(int firstX, int firstY) const;
     void combineRegion(int firstX, int firstY);
-    bool isPlain(int level, int x, int y, double depth) const;
-    unsigned roughLevels(int firstX, int firstY, int width, int height) const;
+    bool goesOn(int level, int x, int y, double depth) const;
+    unsigned steppedLevels(int firstX, int firstY, int width, int height) const;
     void combineQuad(int firstX, int firstY, const Region& region);
     bool isMember(int x, int y) const;
     double depthOf(int x, int y, bool smooth) const;
@@ -101,21 +101,21 @@ private:
     Seen finest(int x, int y) const;
     Seen finestOnSlope(int x, int y) const;
     Seen pixelsOnSlope(int x, int y) const;
-    Seen plainLevel(int level, const PixelPlace& place) const;
+    Seen bilinearLevel(int level, const PixelPlace& place) const;
     Seen levelSeen(int level, int x, int y, const PixelPlace& place, const Region& region) const;
     Seen levelOfQuad(int level, int x, int y, const Region& region) const;
     double stretch(int x, int y) const;
     double pixelArea(int x, int y) const;
     void weighByArea(int x, int y);
-    bool isPlainBlock(int x, int y) const;
+    bool isContinuousQuad(int x, int y) const;
     void shareAreas();
     double quadSlope(int x, int y, int dx, int dy) const;
 
     const ScatterScene& scene_;
     TwinSettings settings_;
     std::vector<BankTable> tables_;
-    std::array<TwinLevel<RawTexel>, bankLevels + 1> raw_;        ///< level 0 is the image
-    std::array<TwinLevel<RawTexel>, bankLevels + 1> rawSeconds_; ///< of the levels that keep a second surface
+    std::array<TwinLevel<ReducedTexel>, bankLevels + 1> reduced_;        ///< level 0 is the image
+    std::array<TwinLevel<ReducedTexel>, bankLevels + 1> reducedSeconds_; ///< of the levels that keep a second surface
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurred_;
     std::array<TwinLevel<BlurredTexel>, bankLevels + 1> blurredSeconds_; ///< of the same levels; no depth: none
     int tilesX_ = 0;

@@ -38,32 +38,33 @@ Corner cornerOf(int level, const PixelPlace& place) {
     return {static_cast<int>(firstX), static_cast<int>(firstY), positionX - firstX, positionY - firstY};
 }
 
-// A blurred texel as it is read: beyond the border the nearest one, with less of its light and mass.
+// A blurred texel as it is read: beyond the border the nearest one, with less of its light and coverage.
 BlurredTexel texelRead(const TwinLevel<BlurredTexel>& level, int x, int y) {
     BlurredTexel texel = level.nearest(x, y);
     if (level.at(x, y) == nullptr) {
         for (double& value : texel.light) {
             value *= constants::bankBorderShare;
         }
-        texel.mass *= constants::bankBorderShare;
+        texel.coverage *= constants::bankBorderShare;
     }
     return texel;
 }
 
 } // namespace
 
-// What a kernel sees of a pixel's surface: light times mass, and mass.
+// What a kernel sees of a pixel's surface: light times coverage, and coverage.
 struct BankTwin::Seen {
     Rgb light{};
-    double mass = 0;
-    double share = 1; // of the kernel, what is at the pixel's depth; edge pixels ask the next finer one for the rest
+    double coverage = 0;
+    double present =
+        1; // [0, 1] of the kernel, what is at the pixel's depth; edge pixels ask the next finer one for the rest
 };
 
 // The pixels of a 2x2 quad. In smooth regions they share its depth, for their weights and their texels' depth weights,
-// and a kernel's mass; and what they see of a coarse level, but for its slopes.
+// and a kernel's coverage; and what they see of a coarse level, but for its slopes.
 void BankTwin::combineQuad(int firstX, int firstY, const Region& region) {
     const bool smooth = region.smooth;
-    if (raw_[1].at(firstX / 2, firstY / 2)->mass <= 0) {
+    if (reduced_[1].at(firstX / 2, firstY / 2)->coverage <= 0) {
         return;
     }
     std::array<std::array<Seen, bankSize>, 4> seen;
@@ -77,15 +78,15 @@ void BankTwin::combineQuad(int firstX, int firstY, const Region& region) {
         }
     }
     for (int kernel = 1; smooth && kernel <= 2; ++kernel) {
-        double mass = 0;
+        double coverage = 0;
         for (const auto& pixel : seen) {
-            mass += 0.25 * pixel[kernel].mass;
+            coverage += 0.25 * pixel[kernel].coverage;
         }
         for (auto& pixel : seen) {
             for (double& value : pixel[kernel].light) {
-                value *= mass / std::max<double>(pixel[kernel].mass, constants::bankLeastWeight);
+                value *= coverage / std::max<double>(pixel[kernel].coverage, constants::bankLeastWeight);
             }
-            pixel[kernel].mass = mass;
+            pixel[kernel].coverage = coverage;
         }
     }
     for (int i = 0; i < 4; ++i) {
@@ -96,13 +97,13 @@ void BankTwin::combineQuad(int firstX, int firstY, const Region& region) {
 }
 
 bool BankTwin::isMember(int x, int y) const {
-    const RawTexel* pixel = raw_[0].at(x, y);
-    return pixel != nullptr && pixel->mass > 0;
+    const ReducedTexel* pixel = reduced_[0].at(x, y);
+    return pixel != nullptr && pixel->coverage > 0;
 }
 
 // What the weights of a pixel's kernels and of its texels are taken at, mm.
 double BankTwin::depthOf(int x, int y, bool smooth) const {
-    return smooth ? raw_[1].at(x / 2, y / 2)->depth : raw_[0].at(x, y)->depth;
+    return smooth ? reduced_[1].at(x / 2, y / 2)->depth : reduced_[0].at(x, y)->depth;
 }
 
 BankTwin::Seen BankTwin::seenBy(int kernel, int x, int y, const Region& region) const {
@@ -129,8 +130,9 @@ BankTwin::Seen BankTwin::levelOfQuad(int level, int x, int y, const Region& regi
     for (const PixelPlace& toPixel : {PixelPlace{x + 0.5 - middle.x, 0}, PixelPlace{0, y + 0.5 - middle.y}}) {
         const Seen there = levelSeen(level, x, y, {middle.x + toPixel.x, middle.y + toPixel.y}, region);
         for (int channel = 0; channel < 3; ++channel) {
-            const double mean = seen.light[channel] / std::max<double>(seen.mass, constants::bankLeastWeight);
-            result.light[channel] += there.light[channel] - seen.light[channel] - mean * (there.mass - seen.mass);
+            const double mean = seen.light[channel] / std::max<double>(seen.coverage, constants::bankLeastWeight);
+            result.light[channel] +=
+                there.light[channel] - seen.light[channel] - mean * (there.coverage - seen.coverage);
         }
     }
     return result;
@@ -145,20 +147,20 @@ void BankTwin::combinePixel(int x, int y, bool smooth, std::span<const Seen, ban
         used[kernel] = kernel == 1 || weights[kernel] != Rgb{};
     }
     for (int channel = 0; channel < 3; ++channel) {
-        double mass = std::max<double>(weights[0][channel], constants::bankLeastIdentity);
-        double light = mass * scene_.irradiance[index][channel];
-        double left = 0;
+        double total = std::max<double>(weights[0][channel], constants::bankLeastIdentity);
+        double light = total * scene_.irradiance[index][channel];
+        double passedOn = 0;
         for (int kernel = bankSize - 1; kernel > 0; --kernel) {
             if (!used[kernel]) {
                 continue;
             }
-            const double weight = weights[kernel][channel] + left;
+            const double weight = weights[kernel][channel] + passedOn;
             light += weight * seen[kernel].light[channel];
-            mass += weight * seen[kernel].mass;
-            left = smooth ? 0 : weight * (1 - seen[kernel].share);
+            total += weight * seen[kernel].coverage;
+            passedOn = smooth ? 0 : weight * (1 - seen[kernel].present);
         }
-        if (mass > 0) {
-            result_[index][channel] = light / mass;
+        if (total > 0) {
+            result_[index][channel] = light / total;
         }
     }
 }
@@ -170,9 +172,9 @@ double BankTwin::quadSlope(int x, int y, int dx, int dy) const {
     for (int i = 0; i < 2; ++i) {
         const int fromX = (x & ~1) + (dy != 0 ? i : 0);
         const int fromY = (y & ~1) + (dx != 0 ? i : 0);
-        const RawTexel* from = raw_[0].at(fromX, fromY);
-        const RawTexel* to = raw_[0].at(fromX + dx, fromY + dy);
-        if (from != nullptr && to != nullptr && from->mass > 0 && to->mass > 0) {
+        const ReducedTexel* from = reduced_[0].at(fromX, fromY);
+        const ReducedTexel* to = reduced_[0].at(fromX + dx, fromY + dy);
+        if (from != nullptr && to != nullptr && from->coverage > 0 && to->coverage > 0) {
             sum += to->depth - from->depth;
             ++pairs;
         }
@@ -196,15 +198,15 @@ BankTwin::Seen BankTwin::pixelsOnSlope(int x, int y) const {
     const double total = (1 + falloffs[0]) * (1 + falloffs[1]);
     Seen seen;
     for (int i = 0; i < 9; ++i) {
-        const RawTexel* tap = raw_[0].at(x + i % 3 - 1, y + i / 3 - 1);
-        if (tap == nullptr || tap->mass <= 0) {
+        const ReducedTexel* tap = reduced_[0].at(x + i % 3 - 1, y + i / 3 - 1);
+        if (tap == nullptr || tap->coverage <= 0) {
             continue;
         }
         const double kernel = (i % 3 == 1 ? 1 : 0.5 * falloffs[0]) * (i / 3 == 1 ? 1 : 0.5 * falloffs[1]) / total;
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += kernel * tap->light[channel] / tap->area;
         }
-        seen.mass += kernel;
+        seen.coverage += kernel;
     }
     return seen;
 }
@@ -212,53 +214,56 @@ BankTwin::Seen BankTwin::pixelsOnSlope(int x, int y) const {
 // The same for level 1.
 BankTwin::Seen BankTwin::finestOnSlope(int x, int y) const {
     const std::array<double, 2> falloffs = slopeFalloffs(x, y);
-    const auto side = [](double wide) { return std::pow(wide, 1.5) / (1 + 2 * std::pow(wide, 1.5)); };
+    const auto side = [](double wide) {
+        const double narrow = std::pow(wide, constants::bankFinestFalloffPower);
+        return narrow / (1 + 2 * narrow);
+    };
     const std::array<double, 5> tapsX = finestTaps(side(falloffs[0]), x % 2);
     const std::array<double, 5> tapsY = finestTaps(side(falloffs[1]), y % 2);
     Seen seen;
     for (int i = 0; i < 25; ++i) {
-        const RawTexel* tap = raw_[1].at(x / 2 + i % 5 - 2, y / 2 + i / 5 - 2);
-        if (tap == nullptr || tap->mass <= 0) {
+        const ReducedTexel* tap = reduced_[1].at(x / 2 + i % 5 - 2, y / 2 + i / 5 - 2);
+        if (tap == nullptr || tap->coverage <= 0) {
             continue;
         }
-        const double kernel = tapsX[i % 5] * tapsY[i / 5] * massOf(tap->area);
+        const double kernel = tapsX[i % 5] * tapsY[i / 5] * coverageOf(tap->area);
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += kernel * tap->light[channel] / tap->area;
         }
-        seen.mass += kernel;
+        seen.coverage += kernel;
     }
     return seen;
 }
 
 // Level 1 as a pixel of an edge region sees it.
 BankTwin::Seen BankTwin::finest(int x, int y) const {
-    const double depth = raw_[0].at(x, y)->depth;
+    const double depth = reduced_[0].at(x, y)->depth;
     const double width = texelWidth(1, depth);
     const std::array<double, 5> tapsX = finestTaps(1 / 3.0, x % 2);
     const std::array<double, 5> tapsY = finestTaps(1 / 3.0, y % 2);
     SurfaceSum surface;
     for (int i = 0; i < 50; ++i) {
-        const TwinLevel<RawTexel>& raw = i < 25 ? raw_[1] : rawSeconds_[1];
-        surface.add(raw.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2), tapsX[i % 5] * tapsY[i / 5 % 5], depth,
+        const TwinLevel<ReducedTexel>& texels = i < 25 ? reduced_[1] : reducedSeconds_[1];
+        surface.add(texels.at(x / 2 + i % 5 - 2, y / 2 + i / 5 % 5 - 2), tapsX[i % 5] * tapsY[i / 5 % 5], depth,
                     constants::bankPixelDepthVariance, width);
     }
-    return {surface.lightOfMass(), surface.mass()};
+    return {surface.lightOfCoverage(), surface.coverage()};
 }
 
 BankTwin::Seen BankTwin::pixels(int x, int y) const {
     constexpr double taps[] = {0.25, 0.5, 0.25};
-    const double depth = raw_[0].at(x, y)->depth;
+    const double depth = reduced_[0].at(x, y)->depth;
     const double width = texelWidth(0, depth);
     SurfaceSum surface;
     for (int i = 0; i < 9; ++i) {
-        surface.add(raw_[0].at(x + i % 3 - 1, y + i / 3 - 1), taps[i % 3] * taps[i / 3], depth,
+        surface.add(reduced_[0].at(x + i % 3 - 1, y + i / 3 - 1), taps[i % 3] * taps[i / 3], depth,
                     constants::bankPixelDepthVariance, width);
     }
-    return {surface.lightOfMass(), surface.mass()};
+    return {surface.lightOfCoverage(), surface.coverage()};
 }
 
 // A level read with bilinear weights alone.
-BankTwin::Seen BankTwin::plainLevel(int level, const PixelPlace& place) const {
+BankTwin::Seen BankTwin::bilinearLevel(int level, const PixelPlace& place) const {
     const Corner corner = cornerOf(level, place);
     Seen seen;
     for (int i = 0; i < 4; ++i) {
@@ -267,7 +272,7 @@ BankTwin::Seen BankTwin::plainLevel(int level, const PixelPlace& place) const {
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += weight * tap.light[channel];
         }
-        seen.mass += weight * tap.mass;
+        seen.coverage += weight * tap.coverage;
     }
     return seen;
 }
@@ -281,14 +286,14 @@ BlurredTexel BankTwin::nearerSurface(int level, int x, int y, double depth) cons
 
 // A coarse level at a place in or beside a pixel, as that pixel or its quad sees it.
 BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, const PixelPlace& place, const Region& region) const {
-    if ((region.roughLevels >> level & 1) == 0) {
-        return plainLevel(level, place);
+    if ((region.steppedLevels >> level & 1) == 0) {
+        return bilinearLevel(level, place);
     }
     const bool smooth = region.smooth;
     const double depth = depthOf(x, y, smooth);
     const double width = texelWidth(level, depth);
     const Corner corner = cornerOf(level, place);
-    // What the level's share is taken at: in smooth regions the middle of the quad, which lies between the same texels.
+    // What is taken of the level, at: in smooth regions the middle of the quad, which lies between the same texels.
     const Corner middle = smooth ? cornerOf(level, {x / 2 * 2 + 1.0, y / 2 * 2 + 1.0}) : corner;
     Seen seen;
     double total = 0;
@@ -306,7 +311,7 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, const PixelPlace& pl
         for (int channel = 0; channel < 3; ++channel) {
             seen.light[channel] += tapWeight * tap.light[channel];
         }
-        seen.mass += tapWeight * tap.mass;
+        seen.coverage += tapWeight * tap.coverage;
         total += middleWeight;
         away += middleWeight * difference;
     }
@@ -314,12 +319,12 @@ BankTwin::Seen BankTwin::levelSeen(int level, int x, int y, const PixelPlace& pl
     const double distance = away * normalization / width;
     const double variance =
         settings_.secondSurfaces && !smooth ? constants::bankSecondAwayVariance : constants::bankLevelAwayVariance;
-    const double share = normalization * falloff(distance * distance / variance);
+    const double factor = normalization * falloff(distance * distance / variance);
     for (double& value : seen.light) {
-        value *= share;
+        value *= factor;
     }
-    seen.mass *= share;
-    seen.share = share * total;
+    seen.coverage *= factor;
+    seen.present = factor * total;
     return seen;
 }
 

@@ -22,7 +22,7 @@ inline double falloff(double q) {
 
 /// What a kernel's share of a pixel is multiplied by: Σ kernel · depth weight · area, which is 1 on a plane of any
 /// slope.
-inline double massOf(double area) {
+inline double coverageOf(double area) {
     return std::min(area, 1.0);
 }
 
@@ -36,8 +36,8 @@ struct SurfaceSum {
     /// Adds a tap, by the kernel's weight and g(Δz² / variance) of its depth from `depth` [mm]. Null and empty ones are
     /// missing. `width`: a texel's, mm; where the tap's own depths vary, it is seen from farther, as one of less area,
     /// and in the light that it has at `depth`.
-    void add(const RawTexel* tap, double kernel, double depth, double variance, double width) {
-        if (tap == nullptr || tap->mass <= 0) {
+    void add(const ReducedTexel* tap, double kernel, double depth, double variance, double width) {
+        if (tap == nullptr || tap->coverage <= 0) {
             return;
         }
         const double distance = (tap->depth - depth) / width;
@@ -51,13 +51,13 @@ struct SurfaceSum {
         area += weight * tap->area;
     }
 
-    double mass() const { return massOf(area); }
+    double coverage() const { return coverageOf(area); }
 
-    /// Mean irradiance · mass.
-    Rgb lightOfMass() const {
+    /// Mean irradiance · coverage.
+    Rgb lightOfCoverage() const {
         Rgb result = light;
         for (double& value : result) {
-            value = value / std::max<double>(area, constants::bankLeastWeight) * mass();
+            value = value / std::max<double>(area, constants::bankLeastWeight) * coverage();
         }
         return result;
     }
@@ -65,7 +65,8 @@ struct SurfaceSum {
 
 // Depth step to the next pixel along one axis, mm: the mean of both sides or, where one is a step to another surface,
 // the smaller. A side without a surface is null.
-inline double pixelStep(const RawTexel* before, const RawTexel& pixel, const RawTexel* after, double width) {
+inline double pixelStep(const ReducedTexel* before, const ReducedTexel& pixel, const ReducedTexel* after,
+                        double width) {
     const double stepBefore = before != nullptr ? pixel.depth - before->depth : 0;
     const double stepAfter = after != nullptr ? after->depth - pixel.depth : 0;
     if (before == nullptr || after == nullptr) {

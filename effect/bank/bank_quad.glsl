@@ -1,11 +1,12 @@
 // What a thread of pass A of `bank` makes of its 2x2 px: a texel of level 1. docs/scatter.md. Included by pass A, with the
-// tile's depths and `roughness` in shared memory.
+// tile's `depths`, of `pitch`, and `tileBits` in shared memory, after
+// bank_reduction.glsl.
 
 // 2x2 px, row by row.
-struct Block {
+struct QuadPixels {
     uint material[4];
-    float depth[4]; // as in the image; from decodeBlock on mm, 0 where none receives light
-    vec3 light[4];  // irradiance; from decodeBlock on as it enters
+    float depth[4]; // as in the image; from decodeQuad on mm, 0 where none receives light
+    vec3 light[4];  // irradiance; from decodeQuad on as it enters
 };
 
 // One of the pixels around the tile.
@@ -43,7 +44,7 @@ int depthPlace(ivec2 pixel) {
     return (pixel.y + 1) * pitch + pixel.x + 1;
 }
 
-// Material ids of a block, 0 beyond the area.
+// Material ids of a quad, 0 beyond the area.
 uvec4 fetchIds(ivec2 first) {
     uvec4 ids;
     [[unroll]] for (int i = 0; i < 4; ++i) {
@@ -54,15 +55,15 @@ uvec4 fetchIds(ivec2 first) {
     return mix(uvec4(0u), ids, bvec4(all(begins), ends.x && begins.y, begins.x && ends.y, all(ends)));
 }
 
-Block fetchBlock(ivec2 first, uvec4 ids) {
-    Block block;
+QuadPixels fetchQuad(ivec2 first, uvec4 ids) {
+    QuadPixels quad;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 pixel = ownPixel(first + offsetOf(i));
-        block.depth[i] = texelFetch(depthImage, pixel, 0).r;
-        block.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
-        block.material[i] = materialOfId(ids[i]);
+        quad.depth[i] = texelFetch(depthImage, pixel, 0).r;
+        quad.light[i] = texelFetch(irradianceImage, pixel, 0).rgb;
+        quad.material[i] = materialOfId(ids[i]);
     }
-    return block;
+    return quad;
 }
 
 // The pixels around the tile, without its corners: one a thread, counted from the tile's first.
@@ -83,20 +84,46 @@ float receivingDepth(uint material, ivec2 pixel, float depth) {
     return material != 0u ? distanceAlongRay(pixel, viewZ(pixel, depth)) : 0.0;
 }
 
-void decodeBlock(inout Block block, ivec2 first) {
-    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+void decodeQuad(inout QuadPixels quad, ivec2 first) {
+    vec4 depth = vec4(quad.depth[0], quad.depth[1], quad.depth[2], quad.depth[3]);
     vec4 along = distancesAlongRays(first + view.areaOffset, depth);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        block.depth[i] = block.material[i] != 0u ? along[i] : 0.0;
+        quad.depth[i] = quad.material[i] != 0u ? along[i] : 0.0;
     }
     if (hasFlag(flagAlbedoBefore)) {
         [[unroll]] for (int i = 0; i < 4; ++i) {
-            block.light[i] *= albedoBefore(ownPixel(first + offsetOf(i)), block.material[i]);
+            quad.light[i] *= albedoBefore(ownPixel(first + offsetOf(i)), quad.material[i]);
         }
     }
 }
 
-// Depths beside a 2x2 block: left and right of its rows, above and below its columns.
+// Depth step from a pixel to the next along one axis, in pixel widths, from the depths on either side (0 = none): their
+// mean or, where one side is a step to another surface, the smaller.
+float pixelStep(float before, float depth, float after) {
+    float width = texelWidth(0, depth);
+    float onlyAfter = after > 0.0 ? after - depth : 0.0;
+    float stepBefore = before > 0.0 ? depth - before : onlyAfter;
+    float stepAfter = after > 0.0 ? onlyAfter : stepBefore;
+    float smaller = min(abs(stepBefore), abs(stepAfter));
+    float larger = max(abs(stepBefore), abs(stepAfter));
+    bool goesOn = larger <= bankContinuedStep * max(smaller, width);
+    return (goesOn ? 0.5 * (stepBefore + stepAfter) : smaller) / width;
+}
+
+// Area of a pixel's surface relative to one that faces the camera, from its own depth and those left, right, above, below.
+float areaOf(float depth, vec4 around) {
+    vec2 slope = vec2(pixelStep(around.x, depth, around.y), pixelStep(around.z, depth, around.w));
+    return min(sqrt(1.0 + dot(slope, slope)), bankLargestArea);
+}
+
+// How much the taps beside the middle of the full-resolution 3x3 weigh, in x and y, on a slope of so many pixel widths a
+// pixel.
+vec2 weightsBeside(vec2 slope) {
+    return 0.5 * vec2(falloff(slope.x * slope.x / bankPixelDepthVariance),
+                      falloff(slope.y * slope.y / bankPixelDepthVariance));
+}
+
+// Depths beside a 2x2 quad: left and right of its rows, above and below its columns.
 struct Sides {
     vec2 left, right, above, below;
 };
@@ -115,82 +142,82 @@ float longestStep(float before, float first, float second, float after) {
     return max(max(abs(first - before), abs(second - first)), abs(after - second));
 }
 
-// Of a block and the pixels beside it.
+// Of a quad and the pixels beside it.
 struct Depths {
     float least;   // 0 where one is on no surface
     float longest; // step from pixel to pixel, those to a pixel on no surface, too
 };
 
-Depths depthsOf(Block block, Sides sides) {
+Depths depthsOf(QuadPixels quad, Sides sides) {
     vec2 leastSides = min(min(sides.left, sides.right), min(sides.above, sides.below));
-    float leastOwn = min(min(block.depth[0], block.depth[1]), min(block.depth[2], block.depth[3]));
-    float longest = max(max(longestStep(sides.left.x, block.depth[0], block.depth[1], sides.right.x),
-                            longestStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
-                        max(longestStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
-                            longestStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
+    float leastOwn = min(min(quad.depth[0], quad.depth[1]), min(quad.depth[2], quad.depth[3]));
+    float longest = max(max(longestStep(sides.left.x, quad.depth[0], quad.depth[1], sides.right.x),
+                            longestStep(sides.left.y, quad.depth[2], quad.depth[3], sides.right.y)),
+                        max(longestStep(sides.above.x, quad.depth[0], quad.depth[2], sides.below.x),
+                            longestStep(sides.above.y, quad.depth[1], quad.depth[3], sides.below.y)));
     return Depths(min(min(leastSides.x, leastSides.y), leastOwn), longest);
 }
 
-// Whether a block and the pixels beside it are one surface, without silhouettes, holes or separate materials.
-bool isPlain(Depths around, float width) {
+// Whether a quad and the pixels beside it are one surface, without silhouettes, holes or separate materials.
+bool isContinuous(Depths around, float width) {
     return around.least > 0.0 && around.longest <= bankContinuedStep * width && !separateMaterials;
 }
 
-// Areas of a plain block's pixels: as areaOf, where every depth goes on to both sides.
-vec4 plainAreas(Block block, Sides sides, float width) {
-    vec4 stepX = vec4(block.depth[1] - sides.left.x, sides.right.x - block.depth[0], block.depth[3] - sides.left.y,
-                      sides.right.y - block.depth[2]);
-    vec4 stepY = vec4(block.depth[2] - sides.above.x, block.depth[3] - sides.above.y, sides.below.x - block.depth[0],
-                      sides.below.y - block.depth[1]);
+// Areas of a continuous quad's pixels: as areaOf, where every depth goes on to both sides.
+vec4 continuousAreas(QuadPixels quad, Sides sides, float width) {
+    vec4 stepX = vec4(quad.depth[1] - sides.left.x, sides.right.x - quad.depth[0], quad.depth[3] - sides.left.y,
+                      sides.right.y - quad.depth[2]);
+    vec4 stepY = vec4(quad.depth[2] - sides.above.x, quad.depth[3] - sides.above.y, sides.below.x - quad.depth[0],
+                      sides.below.y - quad.depth[1]);
     return sqrt(1.0 + (stepX * stepX + stepY * stepY) * (0.25 / (width * width)));
 }
 
-vec4 anyAreas(Block block, Sides sides) {
-    return vec4(areaOf(block.depth[0], vec4(sides.left.x, block.depth[1], sides.above.x, block.depth[2])),
-                areaOf(block.depth[1], vec4(block.depth[0], sides.right.x, sides.above.y, block.depth[3])),
-                areaOf(block.depth[2], vec4(sides.left.y, block.depth[3], block.depth[0], sides.below.x)),
-                areaOf(block.depth[3], vec4(block.depth[2], sides.right.y, block.depth[1], sides.below.y)));
+vec4 anyAreas(QuadPixels quad, Sides sides) {
+    return vec4(areaOf(quad.depth[0], vec4(sides.left.x, quad.depth[1], sides.above.x, quad.depth[2])),
+                areaOf(quad.depth[1], vec4(quad.depth[0], sides.right.x, sides.above.y, quad.depth[3])),
+                areaOf(quad.depth[2], vec4(sides.left.y, quad.depth[3], quad.depth[0], sides.below.x)),
+                areaOf(quad.depth[3], vec4(quad.depth[2], sides.right.y, quad.depth[1], sides.below.y)));
 }
 
 // A texel of level 1 with what the combination wants to know of its pixels.
-struct Reduced {
-    RawTexel texel;
-    RawTexel second; // its second surface
-    uint weights;    // packBeside or, where the block is rough, packSpread with signBit
+struct ReducedQuad {
+    ReducedTexel texel;
+    ReducedTexel second; // its second surface
+    uint weights;    // packWeights or, where the quad is stepped, packSpread with spreadBit
     bool shareArea;  // of all pixels the texel's area, not `areas`
     vec4 areas;
 };
 
-Reduced reducePlain(Block block, Sides sides, float width) {
-    vec4 areas = plainAreas(block, sides, width);
-    vec3 light = areas.x * block.light[0] + areas.y * block.light[1] + areas.z * block.light[2] + areas.w * block.light[3];
-    vec4 depth = vec4(block.depth[0], block.depth[1], block.depth[2], block.depth[3]);
+ReducedQuad reduceContinuous(QuadPixels quad, Sides sides, float width) {
+    vec4 areas = continuousAreas(quad, sides, width);
+    vec3 light = areas.x * quad.light[0] + areas.y * quad.light[1] + areas.z * quad.light[2] + areas.w * quad.light[3];
+    vec4 depth = vec4(quad.depth[0], quad.depth[1], quad.depth[2], quad.depth[3]);
     vec2 steps = vec2(depth.y - depth.x + depth.w - depth.z, depth.z - depth.x + depth.w - depth.y);
     float area = dot(areas, vec4(0.25));
     bool shareArea = dot(areas, areas) <= (4.0 + 4.0 * bankSharedAreaVariance) * (area * area);
-    RawTexel texel = RawTexel(0.25 * light, area, 1.0, dot(depth, vec4(0.25)), block.material[0], false);
-    return Reduced(texel, emptyTexel(), packBeside(weightsBeside(steps * (0.5 / width))), shareArea, areas);
+    ReducedTexel texel = ReducedTexel(0.25 * light, area, 1.0, dot(depth, vec4(0.25)), quad.material[0], false);
+    return ReducedQuad(texel, emptyTexel(), packWeights(weightsBeside(steps * (0.5 / width))), shareArea, areas);
 }
 
 // Which of four texels are on the nearer of two surfaces: closer to the nearest depth than to the farthest.
-bvec4 nearerHalf(RawTexel texels[4], vec2 range) {
+bvec4 nearerHalf(ReducedTexel texels[4], vec2 range) {
     bvec4 result;
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        result[i] = texels[i].mass > 0.0 && texels[i].depth - range.x <= range.y - texels[i].depth;
+        result[i] = texels[i].coverage > 0.0 && texels[i].depth - range.x <= range.y - texels[i].depth;
     }
     return result;
 }
 
 // Which pixels are on the surface that has more of them.
-bvec4 heavierHalf(RawTexel pixels[4]) {
+bvec4 heavierHalf(ReducedTexel pixels[4]) {
     vec2 range = depthRange(pixels);
     bool isOne = range.y - range.x <= separationAt(1, range.x);
     bvec4 near = nearerHalf(pixels, range);
     bvec4 valid;
     float balance = 0.0;
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        valid[i] = pixels[i].mass > 0.0;
-        balance += near[i] ? pixels[i].mass : -pixels[i].mass;
+        valid[i] = pixels[i].coverage > 0.0;
+        balance += near[i] ? pixels[i].coverage : -pixels[i].coverage;
     }
     bvec4 far = bvec4(uvec4(valid) & uvec4(not(near)));
     return isOne ? valid : balance >= 0.0 ? near : far;
@@ -205,18 +232,18 @@ float longestSurfaceStep(float before, float first, float second, float after) {
 }
 
 // The same where some pixel is on no surface: between those that are.
-float longestBesideHole(Block block, Sides sides) {
-    return max(max(longestSurfaceStep(sides.left.x, block.depth[0], block.depth[1], sides.right.x),
-                   longestSurfaceStep(sides.left.y, block.depth[2], block.depth[3], sides.right.y)),
-               max(longestSurfaceStep(sides.above.x, block.depth[0], block.depth[2], sides.below.x),
-                   longestSurfaceStep(sides.above.y, block.depth[1], block.depth[3], sides.below.y)));
+float longestBesideHole(QuadPixels quad, Sides sides) {
+    return max(max(longestSurfaceStep(sides.left.x, quad.depth[0], quad.depth[1], sides.right.x),
+                   longestSurfaceStep(sides.left.y, quad.depth[2], quad.depth[3], sides.right.y)),
+               max(longestSurfaceStep(sides.above.x, quad.depth[0], quad.depth[2], sides.below.x),
+                   longestSurfaceStep(sides.above.y, quad.depth[1], quad.depth[3], sides.below.y)));
 }
 
-// Whether a block and the pixels beside it, of which none is missing, are one surface with longer steps than `limit`: in each row
-// and column with such a step depth rises or falls, however steeply.
-bool isSteep(Block block, Sides sides, float limit) {
-    vec4 first = vec4(block.depth[0], block.depth[2], block.depth[0], block.depth[1]);
-    vec4 second = vec4(block.depth[1], block.depth[3], block.depth[2], block.depth[3]);
+// Whether a quad and the pixels beside it, of which none is missing, are one surface with longer steps than `limit`: in each
+// row and column with such a step depth rises or falls, however steeply.
+bool isSteep(QuadPixels quad, Sides sides, float limit) {
+    vec4 first = vec4(quad.depth[0], quad.depth[2], quad.depth[0], quad.depth[1]);
+    vec4 second = vec4(quad.depth[1], quad.depth[3], quad.depth[2], quad.depth[3]);
     vec4 before = first - vec4(sides.left, sides.above);
     vec4 between = second - first;
     vec4 after = vec4(sides.right, sides.below) - second;
@@ -228,7 +255,7 @@ bool isSteep(Block block, Sides sides, float limit) {
 }
 
 // Of the pixels that a texel has kept.
-DepthSpread spreadOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
+DepthSpread spreadOfPixels(ReducedTexel pixels[4], bvec4 kept, ReducedTexel texel) {
     float perWidth = 1.0 / texelWidth(1, texel.depth);
     float variance = 0.0;
     vec2 lights = vec2(0.0); // sum of the channels; times distance
@@ -241,12 +268,12 @@ DepthSpread spreadOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
     }
     const float ownVariance = 0.5 * bankPixelDepthVariance; // of depth weights, as Gaussians
     const float leastCloseness = ownVariance / (ownVariance + 0.25 * bankSurfaceSeparation * bankSurfaceSeparation);
-    float closeness = texel.mass / max(texel.mass + variance / ownVariance, 0.25);
+    float closeness = texel.coverage / max(texel.coverage + variance / ownVariance, 0.25);
     return DepthSpread(max(closeness, leastCloseness), closeness / ownVariance * lights.y / max(lights.x, 1e-20));
 }
 
 // Depth steps from pixel to pixel, in pixel widths.
-vec2 slopeOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
+vec2 slopeOfPixels(ReducedTexel pixels[4], bvec4 kept, ReducedTexel texel) {
     vec2 steps = vec2(0.0);
     vec2 pairs = vec2(0.0);
     [[unroll]] for (int i = 0; i < 2; ++i) {
@@ -261,68 +288,68 @@ vec2 slopeOfPixels(RawTexel pixels[4], bvec4 kept, RawTexel texel) {
 
 // Not finite light is no light and drops the pixel, as not finite depth does, so that nothing near is taken for smooth.
 // `hasStep`: a step to another surface.
-Reduced reduceAny(Block block, Sides sides, bool hasStep) {
-    Reduced result;
+ReducedQuad reduceAny(QuadPixels quad, Sides sides, bool hasStep) {
+    ReducedQuad result;
     result.shareArea = false;
-    result.areas = anyAreas(block, sides);
-    RawTexel pixels[4];
+    result.areas = anyAreas(quad, sides);
+    ReducedTexel pixels[4];
     bool dropped = false;
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        bool gives = block.depth[i] > 0.0 && isFinite(block.light[i]);
-        dropped = dropped || (block.material[i] != 0u && !gives);
+        bool gives = quad.depth[i] > 0.0 && isFinite(quad.light[i]);
+        dropped = dropped || (quad.material[i] != 0u && !gives);
         pixels[i] = emptyTexel();
         result.areas[i] = gives ? result.areas[i] : 1.0;
         if (gives) {
-            vec3 light = result.areas[i] * block.light[i];
-            pixels[i] = RawTexel(light, result.areas[i], 1.0, block.depth[i], block.material[i], false);
+            vec3 light = result.areas[i] * quad.light[i];
+            pixels[i] = ReducedTexel(light, result.areas[i], 1.0, quad.depth[i], quad.material[i], false);
         }
     }
     bvec4 kept = secondLevels > 0 ? heavierHalf(pixels) : chooseSurface(pixels, 1);
     result.second = secondLevels > 0 ? mergeTexels(pixels, not(kept)) : emptyTexel();
     result.texel = mergeTexels(pixels, kept);
     result.texel.dropped = result.texel.dropped || dropped;
-    bool rough = result.texel.dropped || hasStep;
-    result.weights = rough ? signBit | packSpread(spreadOfPixels(pixels, kept, result.texel))
-                           : packBeside(weightsBeside(slopeOfPixels(pixels, kept, result.texel)));
+    bool stepped = result.texel.dropped || hasStep;
+    result.weights = stepped ? spreadBit | packSpread(spreadOfPixels(pixels, kept, result.texel))
+                           : packWeights(weightsBeside(slopeOfPixels(pixels, kept, result.texel)));
     return result;
 }
 
 // Of the four pixels, as bits: those of light that is negative or not finite are larger than any other's.
-uint largestLight(Block block) {
+uint largestLight(QuadPixels quad) {
     uvec3 largest = uvec3(0u);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        largest = max(largest, floatBitsToUint(block.light[i]));
+        largest = max(largest, floatBitsToUint(quad.light[i]));
     }
     return max(max(largest.r, largest.g), largest.b);
 }
 
-Reduced reduceBlock(Block block, int place, ivec2 texel) {
+ReducedQuad reduceQuad(QuadPixels quad, int place, ivec2 texel) {
     Sides sides = sidesOf(place);
-    float width = texelWidth(0, block.depth[0]);
-    Reduced reduced;
-    Depths around = depthsOf(block, sides);
-    bool plain = isPlain(around, width);
-    if (largestLight(block) > floatBitsToUint(mostDimLight)) {
-        atomicOr(roughness, tileBright);
+    float width = texelWidth(0, quad.depth[0]);
+    ReducedQuad reduced;
+    Depths around = depthsOf(quad, sides);
+    bool continuous = isContinuous(around, width);
+    if (largestLight(quad) > floatBitsToUint(mostDimLight)) {
+        atomicOr(tileBits, tileBright);
         [[unroll]] for (int i = 0; i < 4; ++i) {
-            bool finite = isFinite(block.light[i]);
-            block.light[i] = finite ? storableLight(block.light[i]) : block.light[i];
-            plain = plain && finite;
+            bool finite = isFinite(quad.light[i]);
+            quad.light[i] = finite ? storableLight(quad.light[i]) : quad.light[i];
+            continuous = continuous && finite;
         }
     }
-    if (plain) {
-        reduced = reducePlain(block, sides, width);
+    if (continuous) {
+        reduced = reduceContinuous(quad, sides, width);
     } else {
-        float farthest = max(max(block.depth[0], block.depth[1]), max(block.depth[2], block.depth[3]));
+        float farthest = max(max(quad.depth[0], quad.depth[1]), max(quad.depth[2], quad.depth[3]));
         bool hasHole = around.least == 0.0;
         float limit = (hasHole ? bankSmoothHoleDepth : bankSmoothDepth) * texelWidth(0, farthest);
-        bool isLong = (hasHole ? longestBesideHole(block, sides) : around.longest) > limit;
+        bool isLong = (hasHole ? longestBesideHole(quad, sides) : around.longest) > limit;
         bool mayGoOn = !hasHole && around.longest <= separationAt(1, farthest);
-        reduced = reduceAny(block, sides, isLong && !(mayGoOn && isSteep(block, sides, limit)));
-        bool isPart = secondLevels > 0 || isLong || reduced.texel.mass < 1.0;
-        uint bits = ((reduced.weights & signBit) != 0u ? tileRough(texel) : 0u) | (isPart ? notFull : 0u);
+        reduced = reduceAny(quad, sides, isLong && !(mayGoOn && isSteep(quad, sides, limit)));
+        bool isPart = secondLevels > 0 || isLong || reduced.texel.coverage < 1.0;
+        uint bits = ((reduced.weights & spreadBit) != 0u ? tileStepBit(texel) : 0u) | (isPart ? notFull : 0u);
         if (bits != 0u) {
-            atomicOr(roughness, bits);
+            atomicOr(tileBits, bits);
         }
     }
     return reduced;
