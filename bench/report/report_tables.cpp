@@ -15,7 +15,7 @@ namespace {
 // Rows of cells; the first `textColumns` are text, the others numbers.
 class Table {
 public:
-    Table(std::vector<std::string> header, std::size_t textColumns) : textColumns_(textColumns) {
+    Table(const std::vector<std::string>& header, std::size_t textColumns) : textColumns_(textColumns) {
         html_ = row(header, "th");
     }
 

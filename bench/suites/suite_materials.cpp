@@ -49,7 +49,8 @@ std::vector<Layer> moreLayers(std::span<const Layer> layers, std::size_t count) 
     std::vector<Layer> result;
     for (std::size_t i = 0; i < count; ++i) {
         result.push_back(layers[i % layers.size()]);
-        result.back().variance *= std::pow(repeatedVariance, static_cast<double>(i / layers.size()));
+        const std::size_t repetition = i / layers.size();
+        result.back().variance *= std::pow(repeatedVariance, static_cast<double>(repetition));
     }
     return result;
 }

@@ -69,8 +69,8 @@ struct Plan {
 /// Pixels per millimetre at the camera's target.
 double pixelsPerMillimeter(const View& view, const Size& size);
 
-/// NacreBaselineSettings::thesisStrength at which the thesis's kernel of `radius` texels has its offsets where they belong at
-/// the camera's target.
+/// NacreBaselineSettings::thesisStrength at which the thesis's kernel of `radius` texels has its offsets where they
+/// belong at the camera's target.
 float thesisStrength(const View& view, const Size& size, std::uint32_t radius);
 
 /// px: rms radius of the widest channel of the widest material, at the camera's target.
