@@ -1,6 +1,6 @@
 // `nacre devices`: the Vulkan devices of this machine.
 #include "app/command.hpp"
-#include "renderer/device.hpp"
+#include "renderer/graphics_device.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

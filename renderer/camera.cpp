@@ -1,6 +1,6 @@
 #include "renderer/camera.hpp"
 
-#include "renderer/device.hpp"
+#include "renderer/graphics_device.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "nacre/material.hpp"
 #include "nacre/nacre.h"
-#include "renderer/memory.hpp"
+#include "renderer/vulkan/resources.hpp"
 
 namespace nacre::renderer {
 

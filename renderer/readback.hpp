@@ -1,7 +1,7 @@
 // Reads a frame's images back as floats. Internal to the renderer.
 #pragma once
 
-#include "renderer/compose.hpp"
+#include "renderer/passes/compose.hpp"
 #include "renderer/renderer.hpp"
 
 #include <utility>

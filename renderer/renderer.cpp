@@ -1,7 +1,7 @@
 #include "renderer/renderer.hpp"
 
-#include "renderer/compose.hpp"
-#include "renderer/copy_floor.hpp"
+#include "renderer/passes/compose.hpp"
+#include "renderer/passes/copy_floor.hpp"
 #include "renderer/readback.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nacre/nacre_baselines.h"
-#include "renderer/device.hpp"
+#include "renderer/graphics_device.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>
@@ -97,7 +97,7 @@ struct Pixels {
     std::vector<float> values;
 };
 
-/// Draws one scene. Throws RendererError (renderer/device.hpp) with one sentence.
+/// Draws one scene. Throws RendererError (renderer/graphics_device.hpp) with one sentence.
 class Renderer {
 public:
     Renderer(Device& device, const scene::Scene& scene, const RenderSettings& settings);

@@ -3,7 +3,7 @@
 
 #include "bench/time_statistics.hpp"
 #include "nacre/nacre.h"
-#include "renderer/device.hpp"
+#include "renderer/graphics_device.hpp"
 
 #include <string>
 #include <vector>

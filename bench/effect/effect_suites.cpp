@@ -2,7 +2,7 @@
 
 #include "bench/effect/transmit_scene.hpp"
 #include "bench/machine.hpp"
-#include "renderer/copy_floor.hpp"
+#include "renderer/passes/copy_floor.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "bench/effect/effect_options.hpp"
 #include "bench/effect/scatter_subject.hpp"
-#include "renderer/device.hpp"
+#include "renderer/graphics_device.hpp"
 
 #include <iosfwd>
 

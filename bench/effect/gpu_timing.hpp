@@ -3,7 +3,7 @@
 
 #include "bench/time_statistics.hpp"
 #include "bench/turns.hpp"
-#include "renderer/device_internal.hpp"
+#include "renderer/vulkan/open_device.hpp"
 
 namespace nacre::bench {
 

@@ -1,7 +1,7 @@
 #include "bench/effect/shader_statistics.hpp"
 
 #include "nacre/nacre_parts.h"
-#include "renderer/vulkan.hpp"
+#include "renderer/vulkan/vulkan.hpp"
 
 #include <chrono>
 #include <optional>

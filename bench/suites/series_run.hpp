@@ -4,7 +4,7 @@
 #include "bench/results/results.hpp"
 #include "bench/suites/suite_plan.hpp"
 #include "bench/turns.hpp"
-#include "renderer/device.hpp"
+#include "renderer/graphics_device.hpp"
 
 namespace nacre::bench {
 

@@ -1,0 +1,74 @@
+// Puts the picture's radiance together: albedo / pi · (scattered + transmitted) + specular + emission, with the light of
+// thin walls divided between their two sides (include/nacre/nacre.h, "What to do with the results"), and the surroundings
+// where there is nothing.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shader_types.h"
+#include "environment.glsl"
+
+layout(local_size_x = groupSize, local_size_y = groupSize) in;
+layout(set = 0, binding = 0, std140) uniform View {
+    ViewConstants view;
+};
+layout(set = 0, binding = 1, std140) uniform EnvironmentBlock {
+    EnvironmentConstants environment;
+};
+layout(set = 0, binding = 2, std430) readonly buffer Transmissions {
+    TransmissionConstants transmissions[]; // by material id
+};
+layout(set = 0, binding = 3) uniform sampler2D shadingNormalImage;
+layout(set = 0, binding = 4) uniform sampler2D albedoImage;
+layout(set = 0, binding = 5) uniform sampler2D emissionImage;
+layout(set = 0, binding = 6) uniform usampler2D materialIdImage;
+layout(set = 0, binding = 7) uniform sampler2D irradianceImage;
+layout(set = 0, binding = 8) uniform sampler2D specularImage;
+layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // written where there is a material
+layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
+layout(set = 0, binding = 11) uniform sampler2D environmentImage;
+layout(set = 0, binding = 12) uniform sampler2D occlusionImage;
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D outRadiance;
+layout(push_constant) uniform Push {
+    uint scatter;
+    uint scatteredHasAlbedo;
+    uint transmit;
+};
+
+#include "camera_rays.glsl"
+
+vec3 diffuseRadiance(ivec2 pixel) {
+    vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
+    uint material = texelFetch(materialIdImage, pixel, 0).r;
+    bool isScattered = scatter != 0u && material != 0u;
+    vec3 reflected = isScattered ? texelFetch(scatteredImage, pixel, 0).rgb : texelFetch(irradianceImage, pixel, 0).rgb;
+    if (!isScattered || scatteredHasAlbedo == 0u) {
+        reflected *= albedo;
+    }
+    if (transmit == 0u) {
+        return reflected / pi;
+    }
+    vec3 transmitted = texelFetch(transmittedImage, pixel, 0).rgb;
+    TransmissionConstants transmission = transmissions[material];
+    float share = transmission.share.x;
+    if (share > 0.0) { // a thin wall; what occludes this side stands for what occludes the other
+        vec3 behind = -texelFetch(shadingNormalImage, pixel, 0).xyz;
+        transmitted += share * texelFetch(occlusionImage, pixel, 0).r * environmentIrradiance(environment, behind);
+    }
+    vec3 color = transmission.color.w > 0.0 ? transmission.color.rgb : albedo;
+    return ((1.0 - share) * reflected + color * transmitted) / pi;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(view.size.xy)))) {
+        return;
+    }
+    vec3 radiance;
+    if (texelFetch(shadingNormalImage, pixel, 0).w > 0.0) {
+        radiance = diffuseRadiance(pixel) + texelFetch(specularImage, pixel, 0).rgb +
+                   texelFetch(emissionImage, pixel, 0).rgb;
+    } else {
+        vec3 direction = environmentDirection(viewDirection(pixel), environment.rotation.xy);
+        radiance = textureLod(environmentImage, equirectangular(direction), 0.0).rgb * environment.rotation.z;
+    }
+    imageStore(outRadiance, pixel, vec4(min(radiance, 65504.0), 1.0));
+}

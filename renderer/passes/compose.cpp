@@ -1,0 +1,61 @@
+#include "renderer/passes/compose.hpp"
+
+#include "compose_comp.spv.h"
+#include "tone_map_comp.spv.h"
+
+namespace nacre::renderer {
+namespace {
+
+struct RadiancePush {
+    std::uint32_t scatter;
+    std::uint32_t scatteredHasAlbedo;
+    std::uint32_t transmit;
+};
+
+struct ColorPush {
+    float exposure;
+    std::uint32_t samples;
+    std::uint32_t dither;
+};
+
+} // namespace
+
+Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent) {
+    using Kind = vk::ImageUsageFlagBits;
+    GBuffer& gbuffer = inputs.gbuffer;
+    radiance_ = Image(gpu, {.name = "radiance",
+                            .format = vk::Format::eR16G16B16A16Sfloat,
+                            .extent = gbuffer.image(GBuffer::Depth).info().extent,
+                            .usage = Kind::eStorage | Kind::eSampled | Kind::eTransferSrc});
+    color_ = Image(gpu, {.name = "color",
+                         .format = vk::Format::eR8G8B8A8Unorm,
+                         .extent = extent,
+                         .usage = Kind::eStorage | Kind::eTransferSrc});
+    const auto pixels = [&](Image& image) { return sampled(image, inputs.nearest); };
+    Environment& environment = inputs.environment;
+    radiancePass_ =
+        ComputePass(gpu, "compose", compose_comp_spv,
+                    {uniform(gbuffer.view()), uniform(environment.constants()),
+                     storage(inputs.subsurface.transmissions()), pixels(gbuffer.image(GBuffer::ShadingNormal)),
+                     pixels(gbuffer.image(GBuffer::Albedo)), pixels(gbuffer.image(GBuffer::Emission)),
+                     pixels(gbuffer.image(GBuffer::MaterialId)), pixels(inputs.lighting.irradiance()),
+                     pixels(inputs.lighting.specular()), pixels(inputs.subsurface.scattered()),
+                     pixels(inputs.subsurface.transmitted()), sampled(environment.radiance(), environment.sampler()),
+                     pixels(inputs.occlusion.visibility()), written(radiance_)},
+                    sizeof(RadiancePush));
+    colorPass_ =
+        ComputePass(gpu, "tone map", tone_map_comp_spv, {pixels(radiance_), written(color_)}, sizeof(ColorPush));
+}
+
+void Compose::recordRadiance(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const {
+    const RadiancePush push{settings.scatter ? 1u : 0u, settings.scatteredHasAlbedo ? 1u : 0u,
+                            settings.transmit ? 1u : 0u};
+    radiancePass_.record(commandBuffer, radiance_.info().extent, bytesOf(push));
+}
+
+void Compose::recordColor(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const {
+    const ColorPush push{settings.exposure, settings.samples, settings.dither ? 1u : 0u};
+    colorPass_.record(commandBuffer, color_.info().extent, bytesOf(push));
+}
+
+} // namespace nacre::renderer

@@ -1,0 +1,49 @@
+// What the camera sees, one value per pixel: the images that lighting and the effect read. Internal to the renderer.
+#pragma once
+
+#include "renderer/camera.hpp"
+#include "renderer/passes/gpu_scene.hpp"
+
+#include <array>
+
+namespace nacre::renderer {
+
+class GBuffer {
+public:
+    /// Fragment outputs, in the order of the shader's locations.
+    enum Attachment : std::size_t {
+        Depth,         ///< R32F, linear depth in scene units; the far plane where there is nothing
+        ShadingNormal, ///< RGBA16F, world space, with the normal map; w is 1 on surfaces, 0 where there is nothing
+        VertexNormal,  ///< RGBA16F, world space, without the normal map
+        Albedo,        ///< RGBA16F, diffuse albedo: base colour · (1 − metallic)
+        Reflection,    ///< RGBA16F, F0 in rgb, GGX perceptual roughness in a
+        Emission,      ///< RGBA16F
+        MaterialId,    ///< R16_UINT, index into Scene::materials + 1; 0 = no subsurface scattering
+        Thickness,     ///< R16F, authored thickness in mm; 0 = none
+        AttachmentCount
+    };
+
+    /// `effectUsage[i]` is added to attachment i's usage: what the effect wants of the images it reads.
+    GBuffer(Gpu& gpu, const GpuScene& scene, vk::Extent2D extent,
+            const std::array<vk::ImageUsageFlags, AttachmentCount>& effectUsage);
+
+    Image& image(Attachment attachment) { return images_[attachment]; }
+    /// The camera's constants, for every pass that goes from pixels to the world.
+    const Buffer& view() const { return view_; }
+    void record(const vk::raii::CommandBuffer& commandBuffer, const GpuScene& scene, const View& view);
+
+private:
+    void setView(const vk::raii::CommandBuffer& commandBuffer, const View& view) const;
+
+    std::array<Image, AttachmentCount> images_;
+    Image hardwareDepth_;
+    Buffer view_;
+    vk::raii::DescriptorSetLayout setLayout_ = nullptr;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    vk::raii::DescriptorSet set_ = nullptr;
+    vk::raii::PipelineLayout layout_ = nullptr;
+    vk::raii::Pipeline opaque_ = nullptr;
+    vk::raii::Pipeline masked_ = nullptr;
+};
+
+} // namespace nacre::renderer

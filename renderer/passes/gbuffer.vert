@@ -1,0 +1,31 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shader_types.h"
+
+layout(set = 0, binding = 0, std140) uniform View {
+    ViewConstants view;
+};
+#include "draw.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 uv;
+layout(location = 2) in vec3 normal;
+layout(location = 3) in vec4 tangent;
+
+layout(location = 0) out vec3 outNormal;
+layout(location = 1) out vec4 outTangent;
+layout(location = 2) out vec2 outUv;
+layout(location = 3) out float outDepth;
+
+void main() {
+    mat3 linear = mat3(draw.worldFromObject);
+    vec4 world = draw.worldFromObject * vec4(position, 1.0);
+    // Cofactors carry normals through any linear map; a mirroring one turns them round once too often.
+    mat3 cofactors = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
+    float side = draw.index.z != 0u ? -1.0 : 1.0;
+    outNormal = normalize(side * (cofactors * normal));
+    outTangent = vec4(linear * tangent.xyz, tangent.w * side);
+    outUv = transformUv(uv);
+    outDepth = dot(view.viewRow, world);
+    gl_Position = view.clipFromWorld * world;
+}

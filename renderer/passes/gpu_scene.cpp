@@ -1,0 +1,219 @@
+#include "renderer/passes/gpu_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace nacre::renderer {
+namespace {
+
+/// What a vertex has besides its position, which shadow maps need alone.
+struct VertexAttributes {
+    glm::vec3 normal;
+    glm::vec4 tangent;
+    glm::vec2 uv;
+};
+
+constexpr std::array textureTypes{vk::DescriptorType::eCombinedImageSampler, vk::DescriptorType::eCombinedImageSampler,
+                                  vk::DescriptorType::eCombinedImageSampler, vk::DescriptorType::eCombinedImageSampler};
+
+/// An authored thickness of 0 mm is still authored; the effect reads 0 as "none".
+constexpr float smallestThickness = 1e-3f;
+
+void check(const scene::Scene& scene, const scene::Mesh& mesh) {
+    if (mesh.surface >= scene.surfaces.size()) {
+        throw RendererError("the mesh '" + mesh.name + "' has surface " + std::to_string(mesh.surface) +
+                            ", but the scene has " + std::to_string(scene.surfaces.size()));
+    }
+    const bool inside = std::all_of(mesh.indices.begin(), mesh.indices.end(),
+                                    [&](std::uint32_t index) { return index < mesh.vertices.size(); });
+    if (!inside || mesh.indices.size() % 3 != 0) {
+        throw RendererError("the mesh '" + mesh.name + "' has indices that do not make triangles of its " +
+                            std::to_string(mesh.vertices.size()) + " vertices");
+    }
+}
+
+void check(const scene::Scene& scene, const scene::Surface& surface) {
+    for (const std::uint32_t texture : {surface.baseColorTexture, surface.normalTexture,
+                                        surface.metallicRoughnessTexture, surface.thicknessTexture}) {
+        if (texture != scene::none && texture >= scene.textures.size()) {
+            throw RendererError("the surface '" + surface.name + "' has texture " + std::to_string(texture) +
+                                ", but the scene has " + std::to_string(scene.textures.size()));
+        }
+    }
+    if (surface.material != scene::none && surface.material >= scene.materials.size()) {
+        throw RendererError("the surface '" + surface.name + "' has material " + std::to_string(surface.material) +
+                            ", but the scene has " + std::to_string(scene.materials.size()));
+    }
+}
+
+std::uint32_t makeFlags(const scene::Surface& surface) {
+    const auto bit = [](std::uint32_t texture, std::uint32_t flag) { return texture == scene::none ? 0u : flag; };
+    return bit(surface.baseColorTexture, shared::hasBaseColorTexture) |
+           bit(surface.normalTexture, shared::hasNormalTexture) |
+           bit(surface.metallicRoughnessTexture, shared::hasMetallicRoughnessTexture) |
+           bit(surface.thicknessTexture, shared::hasThicknessTexture) |
+           (surface.doubleSided ? shared::isDoubleSided : 0u);
+}
+
+shared::SurfaceConstants makeSurfaceConstants(const scene::Surface& surface) {
+    const float thickness = surface.thickness < 0 ? 0.0f : std::max(surface.thickness, smallestThickness);
+    const glm::mat3 rows = glm::transpose(surface.uvTransform);
+    return {.baseColor = surface.baseColor,
+            .emission = {surface.emission, surface.normalScale},
+            .parameters = {surface.metallic, surface.roughness, surface.specular, surface.alphaCutoff},
+            .uvTransformU = {rows[0], thickness},
+            .uvTransformV = {rows[1], 0},
+            .material = {surface.material == scene::none ? 0u : surface.material + 1, 0, 0, 0}};
+}
+
+template <typename T> std::span<const std::byte> bytes(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+vk::raii::Sampler makeTextureSampler(const Gpu& gpu, vk::SamplerAddressMode mode) {
+    return {gpu.device,
+            {.magFilter = vk::Filter::eLinear,
+             .minFilter = vk::Filter::eLinear,
+             .mipmapMode = vk::SamplerMipmapMode::eLinear,
+             .addressModeU = mode,
+             .addressModeV = mode,
+             .addressModeW = mode,
+             .anisotropyEnable = gpu.anisotropic,
+             .maxAnisotropy = gpu.anisotropic ? std::min(8.0f, gpu.limits.maxSamplerAnisotropy) : 1.0f,
+             .maxLod = VK_LOD_CLAMP_NONE}};
+}
+
+} // namespace
+
+GpuScene::GpuScene(Gpu& gpu, const scene::Scene& scene) {
+    std::for_each(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { check(scene, mesh); });
+    std::for_each(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& surface) { check(scene, surface); });
+    uploadGeometry(gpu, scene);
+    uploadTextures(gpu, scene);
+    uploadSurfaces(gpu, scene);
+}
+
+void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
+    std::vector<glm::vec3> positions;
+    std::vector<VertexAttributes> attributes;
+    std::vector<std::uint32_t> indices;
+    std::vector<Draw> meshDraws;
+    for (const scene::Mesh& mesh : scene.meshes) {
+        const scene::Surface& surface = scene.surfaces[mesh.surface];
+        meshDraws.push_back({.firstIndex = static_cast<std::uint32_t>(indices.size()),
+                             .indexCount = static_cast<std::uint32_t>(mesh.indices.size()),
+                             .vertexOffset = static_cast<std::int32_t>(positions.size()),
+                             .surface = mesh.surface,
+                             .flags = makeFlags(surface),
+                             .doubleSided = surface.doubleSided,
+                             .alphaMask = surface.alphaMask});
+        for (const scene::Vertex& vertex : mesh.vertices) {
+            positions.push_back(vertex.position);
+            attributes.push_back({vertex.normal, vertex.tangent, vertex.uv});
+        }
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    for (const scene::Instance& instance : scene.instances) {
+        Draw draw = meshDraws.at(instance.mesh);
+        draw.worldFromObject = instance.transform;
+        draw.mirrored = glm::determinant(glm::mat3(instance.transform)) < 0;
+        draws_.push_back(draw);
+    }
+    // Fewest pipeline changes.
+    std::stable_partition(draws_.begin(), draws_.end(), [](const Draw& draw) { return !draw.alphaMask; });
+    using Kind = vk::BufferUsageFlagBits;
+    positions_ = uploadBuffer(gpu, "vertex positions", bytes(positions), Kind::eVertexBuffer);
+    attributes_ = uploadBuffer(gpu, "vertex attributes", bytes(attributes), Kind::eVertexBuffer);
+    indices_ = uploadBuffer(gpu, "indices", bytes(indices), Kind::eIndexBuffer);
+}
+
+void GpuScene::uploadTextures(Gpu& gpu, const scene::Scene& scene) {
+    repeatSampler_ = makeTextureSampler(gpu, vk::SamplerAddressMode::eRepeat);
+    clampSampler_ = makeTextureSampler(gpu, vk::SamplerAddressMode::eClampToEdge);
+    const scene::Texture white{
+        .name = "white", .width = 1, .height = 1, .pixels = std::vector<std::uint8_t>(4, std::uint8_t{255})};
+    const auto upload = [&](const scene::Texture& texture) {
+        if (texture.width == 0 || texture.pixels.size() != std::size_t{texture.width} * texture.height * 4) {
+            throw RendererError("the texture '" + texture.name + "' has " + std::to_string(texture.pixels.size()) +
+                                " bytes for its " + std::to_string(texture.width) + "x" +
+                                std::to_string(texture.height) + " pixels");
+        }
+        using Kind = vk::ImageUsageFlagBits;
+        textures_.emplace_back(
+            gpu, ImageInfo{.name = "texture '" + texture.name + "'",
+                           .format = texture.srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
+                           .extent = {texture.width, texture.height},
+                           .usage = Kind::eSampled | Kind::eTransferSrc | Kind::eTransferDst,
+                           .mipLevels =
+                               static_cast<std::uint32_t>(std::bit_width(std::max(texture.width, texture.height)))});
+        uploadImage(gpu, textures_.back(), bytes(texture.pixels), usage::fragmentRead);
+    };
+    std::for_each(scene.textures.begin(), scene.textures.end(), upload);
+    upload(white);
+}
+
+void GpuScene::uploadSurfaces(Gpu& gpu, const scene::Scene& scene) {
+    std::vector<shared::SurfaceConstants> constants;
+    std::transform(scene.surfaces.begin(), scene.surfaces.end(), std::back_inserter(constants), makeSurfaceConstants);
+    surfaces_ = uploadBuffer(gpu, "surfaces", bytes(constants), vk::BufferUsageFlagBits::eStorageBuffer);
+
+    const std::uint32_t count = std::max<std::uint32_t>(static_cast<std::uint32_t>(scene.surfaces.size()), 1);
+    textureSetLayout_ = makeSetLayout(gpu, textureTypes, vk::ShaderStageFlagBits::eFragment);
+    texturePool_ = makePool(gpu, textureTypes, count);
+    const auto binding = [&](std::uint32_t texture) {
+        const bool missing = texture == scene::none;
+        const bool repeat = missing || scene.textures[texture].repeat;
+        return sampled(missing ? textures_.back() : textures_[texture], repeat ? repeatSampler_ : clampSampler_);
+    };
+    for (const scene::Surface& surface : scene.surfaces) {
+        textureSets_.push_back(makeSet(gpu, texturePool_, textureSetLayout_));
+        const std::array bindings{binding(surface.baseColorTexture), binding(surface.normalTexture),
+                                  binding(surface.metallicRoughnessTexture), binding(surface.thicknessTexture)};
+        writeSet(gpu, textureSets_.back(), bindings);
+    }
+}
+
+std::vector<vk::VertexInputBindingDescription> GpuScene::vertexBindings() {
+    return {{.binding = 0, .stride = sizeof(glm::vec3)}, {.binding = 1, .stride = sizeof(VertexAttributes)}};
+}
+
+std::vector<vk::VertexInputAttributeDescription> GpuScene::vertexAttributes() {
+    return {
+        {.location = 0, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 0},
+        {.location = 1, .binding = 1, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(VertexAttributes, uv)},
+        {.location = 2,
+         .binding = 1,
+         .format = vk::Format::eR32G32B32Sfloat,
+         .offset = offsetof(VertexAttributes, normal)},
+        {.location = 3,
+         .binding = 1,
+         .format = vk::Format::eR32G32B32A32Sfloat,
+         .offset = offsetof(VertexAttributes, tangent)}};
+}
+
+void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout, vk::Pipeline opaque,
+                           vk::Pipeline masked, std::uint32_t shadowLayer, Cull cull) const {
+    commandBuffer.bindVertexBuffers(0, {positions_.handle(), attributes_.handle()}, {0, 0});
+    commandBuffer.bindIndexBuffer(indices_.handle(), 0, vk::IndexType::eUint32);
+    vk::Pipeline bound;
+    for (const Draw& draw : draws_) {
+        const vk::Pipeline pipeline = draw.alphaMask ? masked : opaque;
+        if (pipeline != bound) {
+            commandBuffer.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+            bound = pipeline;
+        }
+        const bool all = cull == Cull::Nothing || draw.doubleSided;
+        commandBuffer.setCullMode(all ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+        commandBuffer.setFrontFace(draw.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+        commandBuffer.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, *textureSets_[draw.surface], {});
+        const shared::DrawConstants constants{
+            .worldFromObject = draw.worldFromObject,
+            .index = {draw.surface, shadowLayer, draw.mirrored ? 1u : 0u, draw.flags}};
+        commandBuffer.pushConstants<shared::DrawConstants>(
+            layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
+        commandBuffer.drawIndexed(draw.indexCount, 1, draw.firstIndex, draw.vertexOffset, 0);
+    }
+}
+
+} // namespace nacre::renderer

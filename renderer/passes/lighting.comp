@@ -1,0 +1,148 @@
+// Light on every visible surface: diffuse irradiance without albedo, and specular reflection beside it.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shader_types.h"
+#include "ggx.glsl"
+#include "environment.glsl"
+
+layout(local_size_x = groupSize, local_size_y = groupSize) in;
+layout(set = 0, binding = 0, std140) uniform View {
+    ViewConstants view;
+};
+layout(set = 0, binding = 1, std140) uniform EnvironmentBlock {
+    EnvironmentConstants environment;
+};
+layout(set = 0, binding = 2, std430) readonly buffer Lights {
+    LightConstants lights[];
+};
+layout(set = 0, binding = 3, std430) buffer Coverage {
+    uint subsurfacePixels;
+};
+layout(set = 0, binding = 4) uniform sampler2D depthImage;
+layout(set = 0, binding = 5) uniform sampler2D shadingNormalImage;
+layout(set = 0, binding = 6) uniform sampler2D vertexNormalImage;
+layout(set = 0, binding = 7) uniform sampler2D reflectionImage;
+layout(set = 0, binding = 8) uniform usampler2D materialIdImage;
+layout(set = 0, binding = 9) uniform sampler2D occlusionImage;
+layout(set = 0, binding = 10) uniform sampler2DArray shadowMaps;
+layout(set = 0, binding = 11) uniform samplerCube specularEnvironment;
+layout(set = 0, binding = 12) uniform sampler2D reflectanceImage;
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D outIrradiance;
+layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D outSpecular;
+layout(push_constant) uniform Push {
+    uint lightCount;
+};
+
+#include "camera_rays.glsl"
+#include "shadow_filter.glsl"
+
+shared uint groupSubsurfacePixels;
+
+struct Surface {
+    vec3 position;
+    vec3 normal;       ///< with the normal map
+    vec3 vertexNormal; ///< without it
+    vec3 toView;
+    vec3 f0;
+    float alpha;
+};
+
+struct Light {
+    vec3 diffuse; ///< irradiance
+    vec3 specular; ///< radiance
+};
+
+/// Irradiance on a surface that faces the light, at `position`, and the way to the light (KHR_lights_punctual).
+vec3 arrivingLight(LightConstants light, vec3 position, out vec3 toLight) {
+    if (light.kind.x == lightDirectional) {
+        toLight = -light.direction.xyz;
+        return light.irradiance.rgb;
+    }
+    vec3 offset = light.position.xyz - position;
+    float distance = length(offset);
+    toLight = offset / max(distance, 1e-20);
+    float meters = distance * light.irradiance.w;
+    float ratio = light.position.w > 0.0 ? meters / light.position.w : 0.0;
+    float falloff = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0) / max(meters * meters, 1e-8);
+    float cone = 1.0;
+    if (light.kind.x == lightSpot) {
+        cone = clamp(-dot(light.direction.xyz, toLight) * light.cone.x + light.cone.y, 0.0, 1.0);
+    }
+    return light.irradiance.rgb * (falloff * cone * cone);
+}
+
+void addPunctual(inout Light result, Surface surface, LightConstants light) {
+    vec3 toLight;
+    vec3 arriving = arrivingLight(light, surface.position, toLight);
+    float nDotL = dot(surface.normal, toLight);
+    if (nDotL <= 0.0 || max(arriving.r, max(arriving.g, arriving.b)) <= 0.0) {
+        return;
+    }
+    vec3 irradiance =
+        arriving * (nDotL * shadowVisibility(shadowMaps, light, surface.position, surface.vertexNormal, toLight));
+    result.diffuse += irradiance;
+    vec3 halfway = normalize(toLight + surface.toView);
+    float nDotV = max(dot(surface.normal, surface.toView), 1e-4);
+    float nDotH = clamp(dot(surface.normal, halfway), 0.0, 1.0);
+    vec3 reflected = fresnel(surface.f0, clamp(dot(surface.toView, halfway), 0.0, 1.0));
+    result.specular += irradiance * reflected * (ggxDistribution(nDotH, surface.alpha) *
+                                                 ggxVisibility(nDotL, nDotV, surface.alpha));
+}
+
+/// How much of a reflection an ambient occlusion of `visibility` lets through (Lagarde and de Rousiers 2014, "Moving
+/// Frostbite to PBR", listing 26).
+float specularVisibility(float nDotV, float visibility, float alpha) {
+    return clamp(pow(nDotV + visibility, exp2(-16.0 * alpha - 1.0)) - 1.0 + visibility, 0.0, 1.0);
+}
+
+void addEnvironment(inout Light result, Surface surface, float visibility) {
+    result.diffuse += environmentIrradiance(environment, surface.normal) * visibility;
+    float roughness = sqrt(surface.alpha);
+    float nDotV = clamp(dot(surface.normal, surface.toView), 1e-4, 1.0);
+    vec2 reflectance = textureLod(reflectanceImage, vec2(nDotV, roughness), 0.0).rg;
+    vec3 direction = environmentDirection(reflect(-surface.toView, surface.normal), environment.rotation.xy);
+    vec3 radiance = textureLod(specularEnvironment, direction, roughness * float(specularLevels - 1u)).rgb;
+    result.specular += radiance * (surface.f0 * reflectance.x + reflectance.y) *
+                       (environment.rotation.z * specularVisibility(nDotV, visibility, surface.alpha));
+}
+
+Light shade(ivec2 pixel, vec4 shadingNormal) {
+    vec4 reflection = texelFetch(reflectionImage, pixel, 0);
+    Surface surface;
+    surface.position = worldPosition(pixel, texelFetch(depthImage, pixel, 0).r);
+    surface.normal = normalize(shadingNormal.xyz);
+    surface.vertexNormal = normalize(texelFetch(vertexNormalImage, pixel, 0).xyz);
+    surface.toView = -viewDirection(pixel);
+    surface.f0 = reflection.rgb;
+    surface.alpha = max(reflection.a * reflection.a, 2e-3);
+    Light result = Light(vec3(0.0), vec3(0.0));
+    for (uint i = 0u; i < lightCount; ++i) {
+        addPunctual(result, surface, lights[i]);
+    }
+    addEnvironment(result, surface, texelFetch(occlusionImage, pixel, 0).r);
+    return result;
+}
+
+void main() {
+    if (gl_LocalInvocationIndex == 0u) {
+        groupSubsurfacePixels = 0u;
+    }
+    barrier();
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, ivec2(view.size.xy)))) {
+        vec4 shadingNormal = texelFetch(shadingNormalImage, pixel, 0);
+        Light light = Light(vec3(0.0), vec3(0.0));
+        if (shadingNormal.w > 0.0) {
+            light = shade(pixel, shadingNormal);
+        }
+        imageStore(outIrradiance, pixel, vec4(min(light.diffuse, 65504.0), 1.0));
+        imageStore(outSpecular, pixel, vec4(min(light.specular, 65504.0), 1.0));
+        if (texelFetch(materialIdImage, pixel, 0).r != 0u) {
+            atomicAdd(groupSubsurfacePixels, 1u);
+        }
+    }
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && groupSubsurfacePixels != 0u) {
+        atomicAdd(subsurfacePixels, groupSubsurfacePixels);
+    }
+}

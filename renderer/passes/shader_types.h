@@ -1,0 +1,101 @@
+// Structures that C++ and GLSL share. Only vec4, uvec4 and mat4 members, so that std140, std430 and C++ agree.
+#ifndef NACRE_RENDERER_SHADER_TYPES_H
+#define NACRE_RENDERER_SHADER_TYPES_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace nacre::renderer::shared {
+using glm::mat4;
+using glm::uvec4;
+using glm::vec4;
+#define NACRE_CONSTANT inline constexpr unsigned
+#else
+#define NACRE_CONSTANT const uint
+#endif
+
+/// Side of a compute workgroup in pixels.
+NACRE_CONSTANT groupSize = 16;
+
+NACRE_CONSTANT noShadow = 0xffffffffu;
+
+/// DrawConstants::index.w
+NACRE_CONSTANT hasBaseColorTexture = 1;
+NACRE_CONSTANT hasNormalTexture = 2;
+NACRE_CONSTANT hasMetallicRoughnessTexture = 4;
+NACRE_CONSTANT hasThicknessTexture = 8;
+NACRE_CONSTANT isDoubleSided = 16;
+
+/// LightConstants::kind.x, the order of scene::LightKind and NacreLightKind
+NACRE_CONSTANT lightDirectional = 0;
+NACRE_CONSTANT lightSpot = 1;
+NACRE_CONSTANT lightPoint = 2;
+
+/// Mip levels of the prefiltered environment; level i holds roughness i / (specularLevels - 1).
+NACRE_CONSTANT specularLevels = 6;
+
+/// The camera of one frame.
+struct ViewConstants {
+    mat4 clipFromWorld;
+    mat4 worldFromView;
+    vec4 viewRow;  ///< dot with vec4(world position, 1) is the linear depth
+    vec4 unproject; ///< view xy = (ndc + zw) * xy, times the linear depth when the projection is a perspective
+    uvec4 size;    ///< width, height, 1 for a perspective, 0
+};
+
+/// A surface's constants; textures are bound beside them.
+struct SurfaceConstants {
+    vec4 baseColor;
+    vec4 emission;     ///< w: normalScale
+    vec4 parameters;   ///< metallic, roughness, specular, alpha cutoff
+    vec4 uvTransformU; ///< dot with vec3(uv, 1) is the transformed u; w: authored thickness, mm, 0 = none
+    vec4 uvTransformV; ///< the same for v
+    uvec4 material;    ///< x: material id
+};
+
+/// What one draw pushes.
+struct DrawConstants {
+    mat4 worldFromObject;
+    uvec4 index; ///< x: surface, y: shadow layer, z: 1 when the transform mirrors, w: flags above
+};
+
+/// One light and how to read its shadow map.
+struct LightConstants {
+    vec4 position;   ///< w: range in metres, 0 = unlimited
+    vec4 direction;  ///< the way the light travels, normalised; w: shadow range in scene units
+    vec4 irradiance; ///< facing it; spot, point: at one metre. w: metres per unit
+    vec4 cone;       ///< x, y: scale and offset of the cone's cosine
+    uvec4 kind;      ///< x: kind, y: first shadow layer or noShadow
+    mat4 shadowClipFromWorld;
+};
+
+/// One layer of the shadow maps, as it is drawn.
+struct ShadowLayer {
+    mat4 clipFromWorld;
+    vec4 origin;    ///< linear depth is measured from here; w: 1 / shadow range
+    vec4 direction; ///< w: 1 when depth is along the direction, 0 when it is the distance from the origin
+};
+
+/// How a material's diffuse light divides between the two sides of a surface.
+struct TransmissionConstants {
+    vec4 color; ///< of what comes through; w: 1, or 0 for the albedo
+    vec4 share; ///< x: f of a thin wall, 0 = a closed body
+};
+
+/// The environment's diffuse irradiance: nine spherical harmonics, cosine lobe folded in.
+struct EnvironmentConstants {
+    vec4 irradiance[9];
+    vec4 rotation; ///< x, y: cosine and sine of the rotation about +Y; z: intensity
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(ViewConstants) == 176);
+static_assert(sizeof(SurfaceConstants) == 96);
+static_assert(sizeof(DrawConstants) == 80);
+static_assert(sizeof(LightConstants) == 144);
+static_assert(sizeof(ShadowLayer) == 96);
+static_assert(sizeof(TransmissionConstants) == 32);
+static_assert(sizeof(EnvironmentConstants) == 160);
+} // namespace nacre::renderer::shared
+#endif
+
+#endif

@@ -1,0 +1,26 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shader_types.h"
+#include "surface_textures.glsl"
+
+layout(set = 0, binding = 0, std430) readonly buffer Layers {
+    ShadowLayer layers[];
+};
+
+layout(location = 0) in vec3 inFromOrigin;
+#ifdef ALPHA_MASK
+layout(location = 1) in vec2 inUv;
+#endif
+layout(location = 0) out float outDepth;
+
+void main() {
+#ifdef ALPHA_MASK
+    SurfaceConstants surface = surfaces[draw.index.x];
+    if (baseColor(surface, inUv).a < surface.parameters.w) {
+        discard;
+    }
+#endif
+    ShadowLayer layer = layers[draw.index.y];
+    float depth = layer.direction.w != 0.0 ? dot(inFromOrigin, layer.direction.xyz) : length(inFromOrigin);
+    outDepth = depth * layer.origin.w;
+}

@@ -1,0 +1,25 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shader_types.h"
+
+layout(set = 0, binding = 0, std430) readonly buffer Layers {
+    ShadowLayer layers[];
+};
+#include "draw.glsl"
+
+layout(location = 0) in vec3 position;
+#ifdef ALPHA_MASK
+layout(location = 1) in vec2 uv;
+layout(location = 1) out vec2 outUv;
+#endif
+layout(location = 0) out vec3 outFromOrigin;
+
+void main() {
+    ShadowLayer layer = layers[draw.index.y];
+    vec4 world = draw.worldFromObject * vec4(position, 1.0);
+    outFromOrigin = world.xyz - layer.origin.xyz;
+#ifdef ALPHA_MASK
+    outUv = transformUv(uv);
+#endif
+    gl_Position = layer.clipFromWorld * world;
+}

@@ -1,0 +1,111 @@
+#include "renderer/passes/shadow_maps.hpp"
+
+#include "shadow_frag.spv.h"
+#include "shadow_masked_frag.spv.h"
+#include "shadow_masked_vert.spv.h"
+#include "shadow_vert.spv.h"
+
+#include <algorithm>
+#include <array>
+
+namespace nacre::renderer {
+namespace {
+
+constexpr vk::Format linearFormat = vk::Format::eR32Sfloat;
+
+ImageInfo mapInfo(std::uint32_t size, std::uint32_t layers) {
+    using Kind = vk::ImageUsageFlagBits;
+    return {.name = "shadow maps",
+            .format = linearFormat,
+            .extent = {size, size},
+            .usage = Kind::eColorAttachment | Kind::eSampled,
+            .layers = layers,
+            .viewType = vk::ImageViewType::e2DArray};
+}
+
+ImageInfo hardwareDepthInfo(std::uint32_t size) {
+    return {.name = "shadow maps' depth test",
+            .format = vk::Format::eD32Sfloat,
+            .extent = {size, size},
+            .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment};
+}
+
+} // namespace
+
+ShadowMaps::ShadowMaps(Gpu& gpu, const GpuScene& scene, std::span<const shared::ShadowLayer> layers,
+                       std::uint32_t size) {
+    if (size == 0) {
+        throw RendererError("the shadow maps' size must be at least 1 pixel, not 0");
+    }
+    const auto count = static_cast<std::uint32_t>(layers.size());
+    // Without shadow maps the passes that read them still need something to bind.
+    const std::uint32_t side = count == 0 ? 1 : size;
+    depth_ = Image(gpu, mapInfo(side, std::max(count, 1u)));
+    hardwareDepth_ = Image(gpu, hardwareDepthInfo(side));
+    for (std::uint32_t layer = 0; layer < count; ++layer) {
+        layerViews_.push_back(depth_.makeView(gpu, vk::ImageViewType::e2D, 0, layer, 1));
+    }
+    layers_ = uploadBuffer(gpu, "shadow layers", std::as_bytes(layers), vk::BufferUsageFlagBits::eStorageBuffer);
+
+    using Stage = vk::ShaderStageFlagBits;
+    const std::array bindings{storage(layers_), storage(scene.surfaces())};
+    const std::array types{bindings[0].type, bindings[1].type};
+    setLayout_ = makeSetLayout(gpu, types, Stage::eVertex | Stage::eFragment);
+    pool_ = makePool(gpu, types, 1);
+    set_ = makeSet(gpu, pool_, setLayout_);
+    writeSet(gpu, set_, bindings);
+    const std::array setLayouts{*setLayout_, *scene.textureSetLayout()};
+    const vk::PushConstantRange push{.stageFlags = Stage::eVertex | Stage::eFragment,
+                                     .size = sizeof(shared::DrawConstants)};
+    layout_ = vk::raii::PipelineLayout(gpu.device, {.setLayoutCount = setLayouts.size(),
+                                                    .pSetLayouts = setLayouts.data(),
+                                                    .pushConstantRangeCount = 1,
+                                                    .pPushConstantRanges = &push});
+    const auto vertexBindings = GpuScene::vertexBindings();
+    const auto vertexAttributes = GpuScene::vertexAttributes();
+    opaque_ = makeGraphicsPipeline(gpu, {.name = "shadow map, opaque",
+                                         .vertexShader = shadow_vert_spv,
+                                         .fragmentShader = shadow_frag_spv,
+                                         .vertexBindings = {vertexBindings[0]},
+                                         .vertexAttributes = {vertexAttributes[0]},
+                                         .colorFormats = {linearFormat},
+                                         .layout = *layout_});
+    masked_ = makeGraphicsPipeline(gpu, {.name = "shadow map, masked",
+                                         .vertexShader = shadow_masked_vert_spv,
+                                         .fragmentShader = shadow_masked_frag_spv,
+                                         .vertexBindings = vertexBindings,
+                                         .vertexAttributes = {vertexAttributes[0], vertexAttributes[1]},
+                                         .colorFormats = {linearFormat},
+                                         .layout = *layout_});
+}
+
+void ShadowMaps::record(const vk::raii::CommandBuffer& commandBuffer, const GpuScene& scene) {
+    const vk::Rect2D area{.extent = depth_.info().extent};
+    prepare(commandBuffer, {{depth_, usage::colorAttachment}});
+    for (std::uint32_t layer = 0; layer < layerViews_.size(); ++layer) {
+        prepare(commandBuffer, {{hardwareDepth_, usage::depthAttachment}});
+        const vk::RenderingAttachmentInfo color{
+            .imageView = *layerViews_[layer],
+            .imageLayout = usage::colorAttachment.layout,
+            .loadOp = vk::AttachmentLoadOp::eClear,
+            .storeOp = vk::AttachmentStoreOp::eStore,
+            .clearValue = {.color = {.float32 = std::array{1.0f, 1.0f, 1.0f, 1.0f}}}};
+        const vk::RenderingAttachmentInfo depth{.imageView = hardwareDepth_.view(),
+                                                .imageLayout = usage::depthAttachment.layout,
+                                                .loadOp = vk::AttachmentLoadOp::eClear,
+                                                .storeOp = vk::AttachmentStoreOp::eDontCare,
+                                                .clearValue = {.depthStencil = {.depth = 0}}};
+        commandBuffer.beginRendering({.renderArea = area,
+                                      .layerCount = 1,
+                                      .colorAttachmentCount = 1,
+                                      .pColorAttachments = &color,
+                                      .pDepthAttachment = &depth});
+        setWholeViewport(commandBuffer, area.extent);
+        commandBuffer.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, {});
+        // Both sides: an open or inside-out mesh throws a shadow too, and the nearest surface is what counts.
+        scene.recordDraws(commandBuffer, *layout_, *opaque_, *masked_, layer, GpuScene::Cull::Nothing);
+        commandBuffer.endRendering();
+    }
+}
+
+} // namespace nacre::renderer
