@@ -30,7 +30,7 @@ renderer::Pixels resolve(const renderer::Pixels& source, std::uint32_t samples) 
     return result;
 }
 
-void writePicture(const std::filesystem::path& file, const renderer::Renderer& renderer, std::uint32_t samples) {
+void writePicture(const std::filesystem::path& file, const renderer::Offscreen& renderer, std::uint32_t samples) {
     if (file.extension() == ".exr") {
         const renderer::Pixels pixels = resolve(renderer.read(renderer::Output::Radiance), samples);
         scene::writeExr(file, pixels.width, pixels.height, pixels.channels, pixels.values);
@@ -43,7 +43,7 @@ void writePicture(const std::filesystem::path& file, const renderer::Renderer& r
     scene::writePng(file, pixels.width, pixels.height, static_cast<int>(pixels.channels.size()), bytes);
 }
 
-void writeAov(const AovOutput& aov, const renderer::Renderer& renderer) {
+void writeAov(const AovOutput& aov, const renderer::Offscreen& renderer) {
     const renderer::Pixels pixels = renderer.read(aov.output);
     scene::writeExr(aov.file, pixels.width, pixels.height, pixels.channels, pixels.values);
 }
@@ -85,7 +85,7 @@ void render(const RenderOptions& options) {
     renderer::FrameReport frame;
     {
         const Progress progress("rendering " + sceneName(options));
-        renderer::Renderer renderer(device, scene, options.settings);
+        renderer::Offscreen renderer(device, scene, options.settings);
         renderer.render(camera);
         writePicture(options.output, renderer, options.settings.samples);
         for (const AovOutput& aov : options.aovs) {

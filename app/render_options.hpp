@@ -1,7 +1,7 @@
 // What `nacre render` was asked for, parsed and checked; nothing here opens a device or a file.
 #pragma once
 
-#include "renderer/renderer.hpp"
+#include "renderer/offscreen.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/render_options.hpp"
-#include "renderer/renderer.hpp"
+#include "renderer/offscreen.hpp"
 #include "scene/scene.hpp"
 
 #include <string>

@@ -4,13 +4,17 @@
 
 namespace nacre::renderer {
 
-NacreImage effectImage(const Image& image) {
+NacreImage effectImage(const Image& image, const Usage& use) {
     const ImageInfo& info = image.info();
     return {.view = image.view(),
             .format = static_cast<VkFormat>(info.format),
-            .layout = static_cast<VkImageLayout>(image.lastUsage().layout),
+            .layout = static_cast<VkImageLayout>(use.layout),
             .extent = info.extent,
             .usage = static_cast<VkImageUsageFlags>(info.usage)};
+}
+
+NacreImage effectImage(const Image& image) {
+    return effectImage(image, image.lastUsage());
 }
 
 NacreMaterial effectMaterial(const Material& material, std::vector<NacreLayer>& layers) {

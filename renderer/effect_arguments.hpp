@@ -9,6 +9,8 @@ namespace nacre::renderer {
 
 /// The image as it was last used.
 NacreImage effectImage(const Image& image);
+/// The image as a pass finds it after a barrier to `use`.
+NacreImage effectImage(const Image& image, const Usage& use);
 
 /// `layers` is where the result's layers point to.
 NacreMaterial effectMaterial(const Material& material, std::vector<NacreLayer>& layers);

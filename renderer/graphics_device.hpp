@@ -28,6 +28,8 @@ std::vector<DeviceDescription> listDevices();
 struct DeviceSettings {
     std::string name;        ///< an index, or part of a name; empty = the fastest kind there is
     bool validation = false; ///< validation layer with synchronisation validation; messages become validationMessages()
+    std::vector<std::string> instanceExtensions; ///< to enable besides the renderer's own, as a window's surface needs
+    std::vector<std::string> deviceExtensions;   ///< likewise, as a swapchain needs
 };
 
 /// An open device with one queue. Defined in renderer/vulkan/open_device.hpp; applications only pass it on.

@@ -3,6 +3,8 @@
 #include "renderer/camera.hpp"
 #include "renderer/graphics_device.hpp"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <tuple>
 
 namespace nacre::renderer {
 namespace {
@@ -21,32 +24,23 @@ constexpr float largestHalfAngle = 85 * std::numbers::pi_v<float> / 180;
 /// Near plane of perspective maps over their range; the depth is reversed 32-bit float, so it may be small.
 constexpr float nearToRange = 1e-4f;
 
-using Points = std::vector<glm::vec3>;
+using Body = LightPlacement::Body;
+using Interval = LightPlacement::Interval;
 
-Points worldPoints(const scene::Scene& scene, const scene::Instance& instance) {
-    Points points;
+std::vector<glm::vec3> worldPoints(const scene::Scene& scene, const scene::Instance& instance) {
+    std::vector<glm::vec3> points;
     for (const scene::Vertex& vertex : scene.meshes.at(instance.mesh).vertices) {
         points.emplace_back(instance.transform * glm::vec4(vertex.position, 1));
     }
     return points;
 }
 
-struct Interval {
-    float low = std::numeric_limits<float>::max();
-    float high = std::numeric_limits<float>::lowest();
-    void add(float value) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-    float length() const { return high - low; }
-    float center() const { return 0.5f * (low + high); }
-};
-
-Interval extent(std::span<const Points> instances, const glm::vec3& axis) {
-    Interval result;
-    for (const Points& points : instances) {
-        for (const glm::vec3& point : points) {
-            result.add(glm::dot(axis, point));
+Interval extent(const std::vector<const Body*>& bodies, const glm::vec3& axis) {
+    Interval result{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+    for (const Body* body : bodies) {
+        for (const glm::vec3& point : body->points) {
+            const float value = glm::dot(axis, point);
+            result = {std::min(result.low, value), std::max(result.high, value)};
         }
     }
     return result;
@@ -54,7 +48,7 @@ Interval extent(std::span<const Points> instances, const glm::vec3& axis) {
 
 /// Normal of the first triangle with area of the points taken three by three from the first one; zero when there is
 /// none.
-glm::vec3 anyNormal(const Points& points) {
+glm::vec3 anyNormal(const std::vector<glm::vec3>& points) {
     for (std::size_t i = 2; i < points.size(); ++i) {
         const glm::vec3 normal = glm::cross(points[i - 1] - points[0], points[i] - points[0]);
         if (glm::length(normal) > 0) {
@@ -64,18 +58,17 @@ glm::vec3 anyNormal(const Points& points) {
     return glm::vec3(0);
 }
 
-/// Whether the instance is flat and the whole scene lies on its lit side: a ground that shadows nothing, whose size
-/// should not coarsen the map.
-bool shadowsNothing(std::span<const Points> instances, const Points& points, const glm::vec3& direction) {
-    glm::vec3 normal = anyNormal(points);
-    if (normal == glm::vec3(0)) {
+/// Whether the body is flat and the whole scene lies on its lit side: a ground that shadows nothing, whose size should
+/// not coarsen the map.
+bool shadowsNothing(const Body& body, const glm::vec3& direction) {
+    if (body.normal == glm::vec3(0)) {
         return true;
     }
-    normal = glm::dot(normal, direction) > 0 ? -normal : normal;
-    const Interval own = extent({&points, 1}, normal);
-    const Interval all = extent(instances, normal);
-    const float tolerance = 1e-4f * std::max(all.length(), 1e-6f);
-    return own.length() <= tolerance && all.low >= own.low - tolerance;
+    const bool turned = glm::dot(body.normal, direction) > 0; // the lit side is the other one
+    const float ownLow = turned ? -body.own.high : body.own.low;
+    const float allLow = turned ? -body.all.high : body.all.low;
+    const float tolerance = 1e-4f * std::max(body.all.length(), 1e-6f);
+    return body.own.length() <= tolerance && allLow >= ownLow - tolerance;
 }
 
 /// The square seen along `direction` with the smallest side, over turns of the map about it.
@@ -85,7 +78,7 @@ struct Square {
     float half = 0;
 };
 
-Square fitSquare(std::span<const Points> casters, const glm::vec3& direction) {
+Square fitSquare(const std::vector<const Body*>& casters, const glm::vec3& direction) {
     const Axes start = axesAround(direction);
     Square best;
     constexpr int turns = 8;
@@ -107,23 +100,43 @@ glm::mat4 fromRows(const glm::vec4& x, const glm::vec4& y, const glm::vec4& z, c
     return glm::transpose(glm::mat4(x, y, z, w));
 }
 
-void placeDirectional(PlacedLight& light, std::span<const Points> instances, float rim) {
-    std::vector<Points> casters;
-    std::copy_if(instances.begin(), instances.end(), std::back_inserter(casters),
-                 [&](const Points& points) { return !shadowsNothing(instances, points, light.direction); });
-    const Square square = fitSquare(casters.empty() ? instances : std::span<const Points>(casters), light.direction);
+glm::vec3 toVector(const float (&values)[3]) {
+    return glm::make_vec3(values);
+}
+
+void copy(float (&target)[3], const glm::vec3& value) {
+    std::copy_n(glm::value_ptr(value), 3, target);
+}
+
+void setShadowClip(NacreLight& light, const glm::mat4& clipFromWorld) {
+    std::copy_n(glm::value_ptr(clipFromWorld), 16, light.shadowClipFromWorld);
+}
+
+std::vector<const Body*> pointers(std::span<const Body> bodies) {
+    std::vector<const Body*> result;
+    std::ranges::transform(bodies, std::back_inserter(result), [](const Body& body) { return &body; });
+    return result;
+}
+
+void placeDirectional(NacreLight& light, std::span<const Body> bodies, float rim) {
+    const glm::vec3 direction = toVector(light.direction);
+    const std::vector<const Body*> all = pointers(bodies);
+    std::vector<const Body*> casters;
+    std::ranges::copy_if(all, std::back_inserter(casters),
+                         [&](const Body* body) { return !shadowsNothing(*body, direction); });
+    const Square square = fitSquare(casters.empty() ? all : casters, direction);
     const float half = std::max(square.half * (1 + rim), 1e-6f);
-    const Interval depth = extent(instances, light.direction);
+    const Interval depth = extent(all, direction);
     const float slack = std::max(0.01f * depth.length(), 1e-6f);
     const glm::vec3 right = square.axes.right / half;
     const glm::vec3 down = -square.axes.up / half;
-    light.position =
-        square.axes.right * square.center.x + square.axes.up * square.center.y + light.direction * (depth.low - slack);
+    const glm::vec3 origin =
+        square.axes.right * square.center.x + square.axes.up * square.center.y + direction * (depth.low - slack);
     light.shadowRange = depth.length() + 2 * slack;
-    const glm::vec3 along = light.direction / light.shadowRange;
-    light.shadowClipFromWorld =
-        fromRows({right, -glm::dot(right, light.position)}, {down, -glm::dot(down, light.position)},
-                 {-along, 1 + glm::dot(along, light.position)}, {0, 0, 0, 1});
+    const glm::vec3 along = direction / light.shadowRange;
+    copy(light.position, origin);
+    setShadowClip(light, fromRows({right, -glm::dot(right, origin)}, {down, -glm::dot(down, origin)},
+                                  {-along, 1 + glm::dot(along, origin)}, {0, 0, 0, 1}));
 }
 
 /// Infinite reversed perspective; the axes' lengths are 1 / tan of the half angles.
@@ -133,11 +146,12 @@ glm::mat4 perspectiveFrom(const glm::vec3& position, const glm::vec3& right, con
     return fromRows(row(right), row(down), {0, 0, 0, nearPlane}, row(forward));
 }
 
-void placeSpot(PlacedLight& light, float rim) {
-    const Axes axes = axesAround(light.direction);
+void placeSpot(NacreLight& light, float rim) {
+    const glm::vec3 direction = toVector(light.direction);
+    const Axes axes = axesAround(direction);
     const float focal = 1 / (std::tan(std::min(light.outerConeAngle, largestHalfAngle)) * (1 + rim));
-    light.shadowClipFromWorld = perspectiveFrom(light.position, axes.right * focal, -axes.up * focal, light.direction,
-                                                nearToRange * light.shadowRange);
+    setShadowClip(light, perspectiveFrom(toVector(light.position), axes.right * focal, -axes.up * focal, direction,
+                                         nearToRange * light.shadowRange));
 }
 
 /// Right, down and forward of the six faces, as Vulkan's cube maps have them (Vulkan 1.3, 16.5.4, "Cube Map Face
@@ -149,33 +163,39 @@ constexpr std::array<std::array<glm::vec3, 3>, 6> cubeFaces{{{{{0, 0, -1}, {0, -
                                                              {{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}},
                                                              {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}}};
 
-void addShadowLayers(LightSet& set, PlacedLight& light, std::span<const Points> instances, float rim) {
-    light.shadowLayer = static_cast<std::uint32_t>(set.shadowLayers.size());
-    if (light.kind == scene::LightKind::Directional) {
-        placeDirectional(light, instances, rim);
+/// A little more than to the farthest vertex.
+float reach(std::span<const Body> bodies, const glm::vec3& position) {
+    float farthest = 0;
+    for (const Body& body : bodies) {
+        for (const glm::vec3& point : body.points) {
+            farthest = std::max(farthest, glm::distance(point, position));
+        }
+    }
+    return std::max(1.01f * farthest, 1e-6f);
+}
+
+/// Places the light's shadow map and returns its layers.
+std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<const Body> bodies, float rim) {
+    if (light.kind == NACRE_LIGHT_DIRECTIONAL) {
+        placeDirectional(light, bodies, rim);
     } else {
-        float farthest = 0;
-        for (const Points& points : instances) {
-            for (const glm::vec3& point : points) {
-                farthest = std::max(farthest, glm::distance(point, light.position));
-            }
-        }
-        light.shadowRange = std::max(1.01f * farthest, 1e-6f);
+        light.shadowRange = reach(bodies, toVector(light.position));
     }
-    const glm::vec4 origin(light.position, 1 / light.shadowRange);
-    if (light.kind == scene::LightKind::Point) {
+    const glm::vec4 origin(toVector(light.position), 1 / light.shadowRange);
+    if (light.kind == NACRE_LIGHT_POINT) {
+        std::vector<shared::ShadowLayer> faces;
         for (const auto& [right, down, forward] : cubeFaces) {
-            set.shadowLayers.push_back(
-                {perspectiveFrom(light.position, right, down, forward, nearToRange * light.shadowRange), origin,
-                 glm::vec4(0)});
+            faces.push_back(
+                {perspectiveFrom(toVector(light.position), right, down, forward, nearToRange * light.shadowRange),
+                 origin, glm::vec4(0)});
         }
-        return;
+        return faces;
     }
-    if (light.kind == scene::LightKind::Spot) {
+    if (light.kind == NACRE_LIGHT_SPOT) {
         placeSpot(light, rim);
     }
-    const float along = light.kind == scene::LightKind::Directional ? 1.0f : 0.0f;
-    set.shadowLayers.push_back({light.shadowClipFromWorld, origin, glm::vec4(light.direction, along)});
+    const float along = light.kind == NACRE_LIGHT_DIRECTIONAL ? 1.0f : 0.0f;
+    return {{glm::make_mat4(light.shadowClipFromWorld), origin, glm::vec4(toVector(light.direction), along)}};
 }
 
 void check(const scene::Light& light) {
@@ -195,48 +215,113 @@ void check(const scene::Light& light) {
     }
 }
 
-} // namespace
-
-LightSet placeLights(const scene::Scene& scene, std::uint32_t shadowMapSize) {
-    if (scene.lights.size() > maxLights) {
-        throw RendererError("the scene has " + std::to_string(scene.lights.size()) + " lights, and may have at most " +
-                            std::to_string(maxLights));
-    }
-    std::vector<Points> instances;
-    for (const scene::Instance& instance : scene.instances) {
-        instances.push_back(worldPoints(scene, instance));
-    }
-    const float rim = 2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u));
-    LightSet set;
-    for (const scene::Light& light : scene.lights) {
-        check(light);
-        PlacedLight placed;
-        placed.kind = light.kind;
-        placed.position = light.position;
-        placed.direction =
-            light.kind == scene::LightKind::Point ? glm::vec3(0, -1, 0) : glm::normalize(light.direction);
-        placed.irradiance = light.color * light.intensity;
-        placed.range = light.range / static_cast<float>(scene.metersPerUnit);
-        placed.innerConeAngle = light.innerConeAngle;
-        placed.outerConeAngle = light.outerConeAngle;
-        if (light.castsShadow) {
-            addShadowLayers(set, placed, instances, rim);
-        }
-        set.lights.push_back(placed);
-    }
-    return set;
+bool sameLight(const scene::Light& a, const scene::Light& b) {
+    const auto values = [](const scene::Light& light) {
+        return std::tuple(light.kind, light.color, light.intensity, light.position, light.direction, light.range,
+                          light.innerConeAngle, light.outerConeAngle, light.castsShadow);
+    };
+    return values(a) == values(b);
 }
 
-shared::LightConstants makeConstants(const PlacedLight& light, float metersPerUnit) {
+shared::LightConstants makeConstants(const NacreLight& light, float metersPerUnit) {
     // KHR_lights_punctual, "Inner and Outer Cone Angles".
     const float cosOuter = std::cos(light.outerConeAngle);
     const float scale = 1 / std::max(0.001f, std::cos(light.innerConeAngle) - cosOuter);
-    return {.position = {light.position, light.range * metersPerUnit},
-            .direction = {light.direction, light.shadowRange},
-            .irradiance = {light.irradiance, metersPerUnit},
+    const bool shadowed = light.shadowMap != NACRE_NO_SHADOW_MAP;
+    return {.position = {toVector(light.position), light.range},
+            .direction = {toVector(light.direction), light.shadowRange},
+            .irradiance = {toVector(light.irradiance), metersPerUnit},
             .cone = {scale, -cosOuter * scale, 0, 0},
-            .kind = {static_cast<std::uint32_t>(light.kind), light.shadowLayer, 0, 0},
-            .shadowClipFromWorld = light.shadowClipFromWorld};
+            .kind = {static_cast<std::uint32_t>(light.kind), shadowed ? light.shadowLayer : shared::noShadow, 0, 0},
+            .shadowClipFromWorld = glm::make_mat4(light.shadowClipFromWorld)};
+}
+
+NacreLightKind convert(scene::LightKind kind) {
+    switch (kind) {
+    case scene::LightKind::Spot:
+        return NACRE_LIGHT_SPOT;
+    case scene::LightKind::Point:
+        return NACRE_LIGHT_POINT;
+    case scene::LightKind::Directional:
+        break;
+    }
+    return NACRE_LIGHT_DIRECTIONAL;
+}
+
+} // namespace
+
+LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMapSize)
+    : metersPerUnit_(static_cast<float>(scene.metersPerUnit)),
+      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
+    for (const scene::Instance& instance : scene.instances) {
+        Body body{.points = worldPoints(scene, instance)};
+        body.normal = anyNormal(body.points);
+        bodies_.push_back(std::move(body));
+    }
+    const std::vector<const Body*> all = pointers(bodies_);
+    for (Body& body : bodies_) {
+        body.own = extent({&body}, body.normal);
+        body.all = extent(all, body.normal);
+    }
+    place(scene.lights);
+}
+
+LightPlacement::Placed LightPlacement::placeAnew(const scene::Light& light) const {
+    check(light);
+    Placed result{.source = light, .light = {}, .layers = {}};
+    NacreLight& placed = result.light;
+    placed.kind = convert(light.kind);
+    copy(placed.position, light.position);
+    copy(placed.direction,
+         light.kind == scene::LightKind::Point ? glm::vec3(0, -1, 0) : glm::normalize(light.direction));
+    copy(placed.irradiance, light.color * light.intensity);
+    placed.range = light.range / metersPerUnit_;
+    placed.innerConeAngle = light.innerConeAngle;
+    placed.outerConeAngle = light.outerConeAngle;
+    placed.shadowMap = NACRE_NO_SHADOW_MAP;
+    placed.shadowRange = 1;
+    setShadowClip(placed, glm::mat4(1));
+    if (light.castsShadow) {
+        placed.shadowMap = 0;
+        result.layers = placeShadowMap(placed, bodies_, margin_);
+    }
+    return result;
+}
+
+LightSet LightPlacement::gather(const std::vector<Placed>& placed) const {
+    LightSet result;
+    for (const Placed& one : placed) {
+        NacreLight& light = result.lights.emplace_back(one.light);
+        light.shadowLayer = one.layers.empty() ? 0 : static_cast<std::uint32_t>(result.shadowLayers.size());
+        result.constants.push_back(makeConstants(light, metersPerUnit_));
+        result.shadowLayers.insert(result.shadowLayers.end(), one.layers.begin(), one.layers.end());
+    }
+    return result;
+}
+
+void LightPlacement::limit(std::size_t lights, std::size_t shadowLayers) {
+    mostLights_ = lights;
+    mostShadowLayers_ = shadowLayers;
+}
+
+void LightPlacement::place(std::span<const scene::Light> lights) {
+    if (lights.size() > maxLights) {
+        throw RendererError("the scene has " + std::to_string(lights.size()) + " lights, and may have at most " +
+                            std::to_string(maxLights));
+    }
+    std::vector<Placed> placed;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const bool known = i < placed_.size() && sameLight(placed_[i].source, lights[i]);
+        placed.push_back(known ? placed_[i] : placeAnew(lights[i]));
+    }
+    LightSet set = gather(placed);
+    if (set.lights.size() > mostLights_ || set.shadowLayers.size() > mostShadowLayers_) {
+        throw RendererError("the frame was made for " + std::to_string(mostLights_) + " lights with " +
+                            std::to_string(mostShadowLayers_) + " layers of shadow maps, and cannot get " +
+                            std::to_string(set.lights.size()) + " with " + std::to_string(set.shadowLayers.size()));
+    }
+    placed_ = std::move(placed);
+    set_ = std::move(set);
 }
 
 } // namespace nacre::renderer

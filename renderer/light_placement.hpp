@@ -1,12 +1,14 @@
-// A scene's lights, placed for shading and for their shadow maps. Internal to the renderer.
+// A scene's lights as the effect's NacreLight, and the layers of their shadow maps. Internal to the renderer.
 #pragma once
 
+#include "nacre/nacre.h"
 #include "renderer/passes/shader_types.h"
 #include "scene/scene.hpp"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nacre::renderer {
@@ -14,30 +16,57 @@ namespace nacre::renderer {
 /// Most lights of a scene, as NacreContextInfo::maxLights.
 inline constexpr std::size_t maxLights = 1024;
 
-/// A light and the conventions of its shadow map; the fields are NacreLight's (include/nacre/nacre.h).
-struct PlacedLight {
-    scene::LightKind kind = scene::LightKind::Directional;
-    glm::vec3 position{0}; ///< directional: where the shadow map's depth is 0
-    glm::vec3 direction{0, -1, 0};
-    glm::vec3 irradiance{1};
-    float range = 0; ///< scene units, 0 = unlimited
-    float innerConeAngle = 0;
-    float outerConeAngle = 0;
-    std::uint32_t shadowLayer = shared::noShadow;
-    glm::mat4 shadowClipFromWorld{1}; ///< directional, spot
-    float shadowRange = 1;            ///< scene units
-};
-
 struct LightSet {
-    std::vector<PlacedLight> lights;
+    std::vector<NacreLight> lights;
+    std::vector<shared::LightConstants> constants; ///< the same, for the renderer's own passes
     std::vector<shared::ShadowLayer> shadowLayers; ///< in the order of the array layers
 };
 
-/// Places every light of the scene. A directional light's map is square in world space and fits what can throw a
-/// shadow; a spot's covers its cone; a point light has six faces. `shadowMapSize` [px] sets the margin the filter
-/// needs. Throws RendererError for more than maxLights, and for a light with faulty values.
-LightSet placeLights(const scene::Scene& scene, std::uint32_t shadowMapSize);
+/// Places lights over one scene's geometry. A directional light's map is square in world space and fits what can throw
+/// a shadow; a spot's covers its cone; a point light has six faces.
+class LightPlacement {
+public:
+    /// Places the scene's own lights. `shadowMapSize` [px] sets the margin the filter needs.
+    LightPlacement(const scene::Scene& scene, std::uint32_t shadowMapSize);
 
-shared::LightConstants makeConstants(const PlacedLight& light, float metersPerUnit);
+    /// From now on `place` refuses more than these, too.
+    void limit(std::size_t lights, std::size_t shadowLayers);
+    /// Lights that are as they were in the last call keep their place without being looked at again. Throws
+    /// RendererError for more than maxLights, and for a light with faulty values; the last set then stays.
+    void place(std::span<const scene::Light> lights);
+    const LightSet& placed() const { return set_; }
+
+    struct Interval {
+        float low;
+        float high;
+        float length() const { return high - low; }
+        float center() const { return 0.5f * (low + high); }
+    };
+    /// The vertices of an instance in world space, and what they are along its first triangle's normal.
+    struct Body {
+        std::vector<glm::vec3> points;
+        glm::vec3 normal{0}; ///< zero where no triangle has an area
+        Interval own{};      ///< along the normal
+        Interval all{};      ///< the whole scene along it
+    };
+    /// A light in its place; its shadow layers count from 0.
+    struct Placed {
+        scene::Light source;
+        NacreLight light;
+        std::vector<shared::ShadowLayer> layers;
+    };
+
+private:
+    Placed placeAnew(const scene::Light& light) const;
+    LightSet gather(const std::vector<Placed>& placed) const;
+
+    float metersPerUnit_;
+    float margin_; ///< of the maps, as a share of their half side
+    std::vector<Body> bodies_;
+    std::vector<Placed> placed_;
+    LightSet set_;
+    std::size_t mostLights_ = maxLights;
+    std::size_t mostShadowLayers_ = 6 * maxLights;
+};
 
 } // namespace nacre::renderer

@@ -1,5 +1,7 @@
 #include "renderer/readback.hpp"
 
+#include "renderer/vulkan/transfer.hpp"
+
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
@@ -66,18 +68,17 @@ Pixels read(Gpu& gpu, Image& image, const Names& channels) {
 
 /// The irradiance after scattering: where there is a material, the effect's output, over the albedo if it has that in
 /// it.
-Pixels readScattered(Gpu& gpu, const FrameImages& images) {
-    Pixels pixels = read(gpu, images.lighting.irradiance(), rgb);
-    if (!images.scatter) {
+Pixels readScattered(Gpu& gpu, const FrameImages& images, const EffectUse& use) {
+    Pixels pixels = read(gpu, images.irradiance, rgb);
+    if (!use.scatter) {
         return pixels;
     }
-    const Pixels scattered = read(gpu, images.subsurface.scattered(), rgb);
-    const bool hasAlbedo = images.subsurface.scatteredHasAlbedo();
-    const Pixels albedo = hasAlbedo ? read(gpu, images.gbuffer.image(GBuffer::Albedo), rgb) : Pixels{};
-    const Pixels material = read(gpu, images.gbuffer.image(GBuffer::MaterialId), {"ID"});
+    const Pixels scattered = read(gpu, images.scattered, rgb);
+    const Pixels albedo = use.scatteredHasAlbedo ? read(gpu, images.albedo, rgb) : Pixels{};
+    const Pixels material = read(gpu, images.materialId, {"ID"});
     for (std::size_t i = 0; i < pixels.values.size(); ++i) {
         if (material.values[i / rgb.size()] != 0) {
-            const float share = hasAlbedo ? albedo.values[i] : 1.0f;
+            const float share = use.scatteredHasAlbedo ? albedo.values[i] : 1.0f;
             pixels.values[i] = share > 0 ? scattered.values[i] / share : 0.0f;
         }
     }
@@ -85,18 +86,18 @@ Pixels readScattered(Gpu& gpu, const FrameImages& images) {
 }
 
 /// What transmission leaves behind; nothing where it is off.
-Pixels readTransmission(Gpu& gpu, Image& image, const Names& channels, bool transmit) {
+Pixels readTransmission(Gpu& gpu, Image& image, const Names& channels, const EffectUse& use) {
     Pixels pixels = read(gpu, image, channels);
-    if (!transmit) {
+    if (!use.transmit) {
         std::fill(pixels.values.begin(), pixels.values.end(), 0.0f);
     }
     return pixels;
 }
 
 /// Linear depth, infinite where there is nothing.
-Pixels readDepth(Gpu& gpu, GBuffer& gbuffer) {
-    Pixels pixels = read(gpu, gbuffer.image(GBuffer::Depth), {"Z"});
-    const Pixels normal = read(gpu, gbuffer.image(GBuffer::ShadingNormal), {"X", "Y", "Z", "W"});
+Pixels readDepth(Gpu& gpu, const FrameImages& images) {
+    Pixels pixels = read(gpu, images.depth, {"Z"});
+    const Pixels normal = read(gpu, images.shadingNormal, {"X", "Y", "Z", "W"});
     for (std::size_t i = 0; i < pixels.values.size(); ++i) {
         if (normal.values[4 * i + 3] == 0) {
             pixels.values[i] = std::numeric_limits<float>::infinity();
@@ -105,33 +106,39 @@ Pixels readDepth(Gpu& gpu, GBuffer& gbuffer) {
     return pixels;
 }
 
+Pixels readThickness(Gpu& gpu, const FrameImages& images, const EffectUse& use) {
+    if (images.thickness == nullptr) {
+        throw RendererError("the thickness cannot be read, RenderSettings::thickness is false");
+    }
+    return readTransmission(gpu, *images.thickness, {"MM"}, use);
+}
+
 } // namespace
 
-Pixels readOutput(Gpu& gpu, Output output, const FrameImages& images) {
-    GBuffer& gbuffer = images.gbuffer;
+Pixels readOutput(Gpu& gpu, Output output, const FrameImages& images, const EffectUse& use) {
     switch (output) {
     case Output::Color:
-        return read(gpu, images.compose.color(), rgb);
+        return read(gpu, images.color, rgb);
     case Output::Radiance:
-        return read(gpu, images.compose.radiance(), rgb);
+        return read(gpu, images.radiance, rgb);
     case Output::Irradiance:
-        return read(gpu, images.lighting.irradiance(), rgb);
+        return read(gpu, images.irradiance, rgb);
     case Output::Scattered:
-        return readScattered(gpu, images);
+        return readScattered(gpu, images, use);
     case Output::Transmitted:
-        return readTransmission(gpu, images.subsurface.transmitted(), rgb, images.transmit);
+        return readTransmission(gpu, images.transmitted, rgb, use);
     case Output::Depth:
-        return readDepth(gpu, gbuffer);
+        return readDepth(gpu, images);
     case Output::Normal:
-        return read(gpu, gbuffer.image(GBuffer::ShadingNormal), {"X", "Y", "Z"});
+        return read(gpu, images.shadingNormal, {"X", "Y", "Z"});
     case Output::Material:
-        return read(gpu, gbuffer.image(GBuffer::MaterialId), {"ID"});
+        return read(gpu, images.materialId, {"ID"});
     case Output::Thickness:
-        return readTransmission(gpu, images.subsurface.thickness(), {"MM"}, images.transmit);
+        return readThickness(gpu, images, use);
     case Output::Albedo:
-        return read(gpu, gbuffer.image(GBuffer::Albedo), rgb);
+        return read(gpu, images.albedo, rgb);
     case Output::Specular:
-        return read(gpu, images.lighting.specular(), rgb);
+        return read(gpu, images.specular, rgb);
     }
     throw RendererError("there is no such output");
 }

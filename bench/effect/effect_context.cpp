@@ -1,5 +1,7 @@
 #include "bench/effect/effect_context.hpp"
 
+#include "renderer/vulkan/transfer.hpp"
+
 #include "core/half.hpp"
 
 #include <algorithm>

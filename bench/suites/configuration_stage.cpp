@@ -10,6 +10,7 @@ renderer::RenderSettings settingsOf(const Configuration& configuration) {
     settings.shadowMapSize = configuration.shadowMapSize;
     settings.copyFloor = true;
     settings.effectRepetitions = mostRepetitions;
+    settings.shadowMapsEveryFrame = true; // so that a frame's time is that of one whose lights move
     return settings;
 }
 
@@ -31,7 +32,7 @@ void Stage::select(const Configuration& configuration) {
                   configuration.shadowMapSize};
     auto found = actors_.find(key);
     if (found == actors_.end()) {
-        renderer::Renderer renderer(device_, *configuration.view->scene, settingsOf(configuration));
+        renderer::Offscreen renderer(device_, *configuration.view->scene, settingsOf(configuration));
         found = actors_.emplace(key, Actor{std::move(renderer)}).first;
     }
     actor_ = &found->second;

@@ -19,14 +19,14 @@ public:
     void select(const Configuration& configuration);
     /// Renders the selected configuration.
     const renderer::FrameReport& renderFrame(renderer::Timing timing = renderer::Timing::Passes);
-    /// Repeats the effect on its renderer's last frame (Renderer::renderEffect), and renders one before where there is
+    /// Repeats the effect on its renderer's last frame (Offscreen::renderEffect), and renders one before where there is
     /// none yet.
     const renderer::FrameReport& renderEffect(std::uint32_t repetitions = 0);
     renderer::Pixels read(renderer::Output output) const { return actor_->renderer.read(output); }
 
 private:
     struct Actor {
-        renderer::Renderer renderer;
+        renderer::Offscreen renderer;
         const Configuration* configuration = nullptr;
         bool rendered = false;
     };

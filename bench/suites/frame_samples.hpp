@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/results/results.hpp"
-#include "renderer/renderer.hpp"
+#include "renderer/offscreen.hpp"
 
 namespace nacre::bench {
 

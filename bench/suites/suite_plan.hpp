@@ -1,7 +1,7 @@
 // What a suite measures: configurations in series, as data.
 #pragma once
 
-#include "renderer/renderer.hpp"
+#include "renderer/offscreen.hpp"
 #include "scene/scene.hpp"
 
 #include <memory>

@@ -20,7 +20,8 @@ struct ColorPush {
 
 } // namespace
 
-Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent) {
+Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent, std::size_t materialCount,
+                 std::uint32_t framesInFlight) {
     using Kind = vk::ImageUsageFlagBits;
     GBuffer& gbuffer = inputs.gbuffer;
     radiance_ = Image(gpu, {.name = "radiance",
@@ -31,31 +32,35 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent) {
                          .format = vk::Format::eR8G8B8A8Unorm,
                          .extent = extent,
                          .usage = Kind::eStorage | Kind::eTransferSrc});
+    transmissions_ = FrameBuffer(gpu, "transmissions", (materialCount + 1) * sizeof(shared::TransmissionConstants),
+                                 vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
     const auto pixels = [&](Image& image) { return sampled(image, inputs.nearest); };
     Environment& environment = inputs.environment;
-    radiancePass_ =
-        ComputePass(gpu, "compose", compose_comp_spv,
-                    {uniform(gbuffer.view()), uniform(environment.constants()),
-                     storage(inputs.subsurface.transmissions()), pixels(gbuffer.image(GBuffer::ShadingNormal)),
-                     pixels(gbuffer.image(GBuffer::Albedo)), pixels(gbuffer.image(GBuffer::Emission)),
-                     pixels(gbuffer.image(GBuffer::MaterialId)), pixels(inputs.lighting.irradiance()),
-                     pixels(inputs.lighting.specular()), pixels(inputs.subsurface.scattered()),
-                     pixels(inputs.subsurface.transmitted()), sampled(environment.radiance(), environment.sampler()),
-                     pixels(inputs.occlusion.visibility()), written(radiance_)},
-                    sizeof(RadiancePush));
+    radiancePass_ = ComputePass(gpu, "compose", compose_comp_spv,
+                                {uniform(gbuffer.view()), uniform(environment.constants()), storage(transmissions_),
+                                 pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
+                                 pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
+                                 pixels(inputs.lighting.irradiance()), pixels(inputs.lighting.specular()),
+                                 pixels(inputs.subsurface.scattered), pixels(inputs.subsurface.transmitted),
+                                 sampled(environment.radiance(), environment.sampler()),
+                                 pixels(inputs.occlusion.visibility()), written(radiance_)},
+                                sizeof(RadiancePush));
     colorPass_ =
         ComputePass(gpu, "tone map", tone_map_comp_spv, {pixels(radiance_), written(color_)}, sizeof(ColorPush));
 }
 
-void Compose::recordRadiance(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const {
+void Compose::recordRadiance(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
+                             const Settings& settings) {
+    transmissions_.write(frame, std::as_bytes(settings.transmissions));
     const RadiancePush push{settings.scatter ? 1u : 0u, settings.scatteredHasAlbedo ? 1u : 0u,
                             settings.transmit ? 1u : 0u};
-    radiancePass_.record(commandBuffer, radiance_.info().extent, bytesOf(push));
+    radiancePass_.record(commandBuffer, frame, radiance_.info().extent, bytesOf(push));
 }
 
-void Compose::recordColor(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const {
+void Compose::recordColor(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
+                          const Settings& settings) const {
     const ColorPush push{settings.exposure, settings.samples, settings.dither ? 1u : 0u};
-    colorPass_.record(commandBuffer, color_.info().extent, bytesOf(push));
+    colorPass_.record(commandBuffer, frame, color_.info().extent, bytesOf(push));
 }
 
 } // namespace nacre::renderer

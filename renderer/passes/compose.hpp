@@ -14,12 +14,14 @@ public:
         GBuffer& gbuffer;
         AmbientOcclusion& occlusion;
         Lighting& lighting;
-        Subsurface& subsurface;
+        SubsurfaceImages& subsurface;
         Environment& environment;
         const vk::raii::Sampler& nearest;
     };
 
     struct Settings {
+        std::span<const shared::TransmissionConstants>
+            transmissions; ///< by material id, of those the inputs have room for
         bool scatter = true;
         bool scatteredHasAlbedo = false; ///< Subsurface::scatteredHasAlbedo
         bool transmit = true;
@@ -28,19 +30,25 @@ public:
         bool dither = false;
     };
 
-    /// `extent` is the picture's; the inputs are `samples` times as large.
-    Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent);
+    /// `extent` is the picture's; the inputs are `samples` times as large. Ids of materials go to `materialCount`.
+    Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent, std::size_t materialCount,
+            std::uint32_t framesInFlight);
 
     /// Linear light before the tone curve. RGBA16F.
     Image& radiance() { return radiance_; }
     /// The picture, sRGB encoded. RGBA8.
     Image& color() { return color_; }
-    void recordRadiance(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const;
-    void recordColor(const vk::raii::CommandBuffer& commandBuffer, const Settings& settings) const;
+    void recordRadiance(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, const Settings& settings);
+    void recordColor(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, const Settings& settings) const;
+    template <typename Action> void forEachImage(const Action& action) {
+        action(radiance_);
+        action(color_);
+    }
 
 private:
     Image radiance_;
     Image color_;
+    FrameBuffer transmissions_;
     ComputePass radiancePass_;
     ComputePass colorPass_;
 };

@@ -22,7 +22,7 @@ CopyFloor::CopyFloor(Gpu& gpu, const Inputs& inputs, const vk::raii::Sampler& ne
 }
 
 void CopyFloor::record(const vk::raii::CommandBuffer& commandBuffer) const {
-    pass_.record(commandBuffer, copy_.info().extent);
+    pass_.record(commandBuffer, 0, copy_.info().extent);
 }
 
 } // namespace nacre::renderer

@@ -2,7 +2,7 @@
 // benchmark.
 #pragma once
 
-#include "renderer/vulkan/pipelines.hpp"
+#include "renderer/vulkan/compute_pass.hpp"
 
 namespace nacre::renderer {
 
@@ -18,6 +18,7 @@ public:
     CopyFloor(Gpu& gpu, const Inputs& inputs, const vk::raii::Sampler& nearest);
 
     void record(const vk::raii::CommandBuffer& commandBuffer) const;
+    template <typename Action> void forEachImage(const Action& action) { action(copy_); }
     /// What one pass reads and writes.
     std::uint64_t bytes() const { return bytes_; }
 

@@ -1,5 +1,7 @@
 #include "renderer/passes/environment.hpp"
 
+#include "renderer/vulkan/transfer.hpp"
+
 #include "environment_reflectance_comp.spv.h"
 #include "environment_specular_comp.spv.h"
 
@@ -91,7 +93,7 @@ std::array<glm::vec3, 9> irradianceHarmonics(const scene::FloatImage& image) {
     return result;
 }
 
-Environment::Environment(Gpu& gpu, const scene::Environment& environment)
+Environment::Environment(Gpu& gpu, const scene::Environment& environment, std::uint32_t framesInFlight)
     : sampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eRepeat)),
       clampSampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eClampToEdge)) {
     const scene::FloatImage image = environment.image ? *environment.image : makeSky(environment);
@@ -101,13 +103,16 @@ Environment::Environment(Gpu& gpu, const scene::Environment& environment)
     }
     uploadRadiance(gpu, image);
     prefilter(gpu);
-    shared::EnvironmentConstants constants{};
     const std::array<glm::vec3, 9> irradiance = irradianceHarmonics(image);
-    std::transform(irradiance.begin(), irradiance.end(), constants.irradiance,
+    std::transform(irradiance.begin(), irradiance.end(), constants_.irradiance,
                    [](const glm::vec3& value) { return glm::vec4(value, 0); });
-    constants.rotation = {std::cos(environment.rotation), std::sin(environment.rotation), environment.intensity, 0};
-    constants_ =
-        uploadBuffer(gpu, "environment constants", bytesOf(constants), vk::BufferUsageFlagBits::eUniformBuffer);
+    setLook(environment.intensity, environment.rotation);
+    constantsBuffer_ = FrameBuffer(gpu, "environment constants", sizeof constants_,
+                                   vk::BufferUsageFlagBits::eUniformBuffer, framesInFlight);
+}
+
+void Environment::setLook(float intensity, float rotation) {
+    constants_.rotation = {std::cos(rotation), std::sin(rotation), intensity, 0};
 }
 
 void Environment::uploadRadiance(Gpu& gpu, const scene::FloatImage& image) {
@@ -148,11 +153,11 @@ void Environment::prefilter(Gpu& gpu) {
                             static_cast<std::uint32_t>(sizeof(float)));
     }
     gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
-        reflectancePass.record(commandBuffer, reflectance_.info().extent);
+        reflectancePass.record(commandBuffer, 0, reflectance_.info().extent);
         for (std::uint32_t level = 0; level < shared::specularLevels; ++level) {
             const float roughness = static_cast<float>(level) / (shared::specularLevels - 1);
             const std::uint32_t side = specularSize >> level;
-            levels[level].record(commandBuffer, {side, side}, bytesOf(roughness), 6);
+            levels[level].record(commandBuffer, 0, {side, side}, bytesOf(roughness), 6);
         }
         prepare(commandBuffer, {{specular_, usage::computeRead}, {reflectance_, usage::computeRead}});
     });

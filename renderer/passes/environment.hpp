@@ -4,8 +4,8 @@
 // Equirectangular images have -Z at their centre, +X a quarter to the right, +Y at the top.
 #pragma once
 
-#include "renderer/vulkan/pipelines.hpp"
 #include "renderer/passes/shader_types.h"
+#include "renderer/vulkan/compute_pass.hpp"
 #include "scene/scene.hpp"
 
 #include <array>
@@ -14,7 +14,12 @@ namespace nacre::renderer {
 
 class Environment {
 public:
-    Environment(Gpu& gpu, const scene::Environment& environment);
+    Environment(Gpu& gpu, const scene::Environment& environment, std::uint32_t framesInFlight);
+
+    /// Replaces scene::Environment's intensity and rotation, for frames that begin later.
+    void setLook(float intensity, float rotation);
+    /// Before what reads the environment in frame `frame` is recorded; its previous use must have finished.
+    void beginFrame(std::uint32_t frame) { constantsBuffer_.write(frame, bytesOf(constants_)); }
 
     /// The surroundings as they are seen, RGBA16F, with mip levels.
     Image& radiance() { return radiance_; }
@@ -22,7 +27,7 @@ public:
     Image& specular() { return specular_; }
     /// Split-sum terms over N·V (x) and roughness (y): reflection = F0 · r + g.
     Image& reflectance() { return reflectance_; }
-    const Buffer& constants() const { return constants_; }
+    const FrameBuffer& constants() const { return constantsBuffer_; }
     /// Linear, wraps around in longitude.
     const vk::raii::Sampler& sampler() const { return sampler_; }
     /// Linear, for reflectance().
@@ -35,7 +40,8 @@ private:
     Image radiance_;
     Image specular_;
     Image reflectance_;
-    Buffer constants_;
+    shared::EnvironmentConstants constants_{};
+    FrameBuffer constantsBuffer_;
     vk::raii::Sampler sampler_ = nullptr;
     vk::raii::Sampler clampSampler_ = nullptr;
 };

@@ -4,6 +4,7 @@
 #include "renderer/camera.hpp"
 #include "renderer/passes/gpu_scene.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace nacre::renderer {
@@ -25,22 +26,23 @@ public:
 
     /// `effectUsage[i]` is added to attachment i's usage: what the effect wants of the images it reads.
     GBuffer(Gpu& gpu, const GpuScene& scene, vk::Extent2D extent,
-            const std::array<vk::ImageUsageFlags, AttachmentCount>& effectUsage);
+            const std::array<vk::ImageUsageFlags, AttachmentCount>& effectUsage, std::uint32_t framesInFlight);
 
     Image& image(Attachment attachment) { return images_[attachment]; }
     /// The camera's constants, for every pass that goes from pixels to the world.
-    const Buffer& view() const { return view_; }
-    void record(const vk::raii::CommandBuffer& commandBuffer, const GpuScene& scene, const View& view);
+    const FrameBuffer& view() const { return view_; }
+    void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, const GpuScene& scene,
+                const View& view);
+    template <typename Action> void forEachImage(const Action& action) {
+        std::for_each(images_.begin(), images_.end(), action);
+        action(hardwareDepth_);
+    }
 
 private:
-    void setView(const vk::raii::CommandBuffer& commandBuffer, const View& view) const;
-
     std::array<Image, AttachmentCount> images_;
     Image hardwareDepth_;
-    Buffer view_;
-    vk::raii::DescriptorSetLayout setLayout_ = nullptr;
-    vk::raii::DescriptorPool pool_ = nullptr;
-    vk::raii::DescriptorSet set_ = nullptr;
+    FrameBuffer view_;
+    DescriptorSets sets_;
     vk::raii::PipelineLayout layout_ = nullptr;
     vk::raii::Pipeline opaque_ = nullptr;
     vk::raii::Pipeline masked_ = nullptr;

@@ -1,8 +1,11 @@
 #include "renderer/passes/gpu_scene.hpp"
 
+#include "renderer/vulkan/transfer.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <tuple>
 
 namespace nacre::renderer {
 namespace {
@@ -33,6 +36,13 @@ void check(const scene::Scene& scene, const scene::Mesh& mesh) {
     }
 }
 
+void checkMaterial(const scene::Surface& surface, std::size_t materialCount) {
+    if (surface.material != scene::none && surface.material >= materialCount) {
+        throw RendererError("the surface '" + surface.name + "' has material " + std::to_string(surface.material) +
+                            ", but the scene has " + std::to_string(materialCount));
+    }
+}
+
 void check(const scene::Scene& scene, const scene::Surface& surface) {
     for (const std::uint32_t texture : {surface.baseColorTexture, surface.normalTexture,
                                         surface.metallicRoughnessTexture, surface.thicknessTexture}) {
@@ -41,10 +51,22 @@ void check(const scene::Scene& scene, const scene::Surface& surface) {
                                 ", but the scene has " + std::to_string(scene.textures.size()));
         }
     }
-    if (surface.material != scene::none && surface.material >= scene.materials.size()) {
-        throw RendererError("the surface '" + surface.name + "' has material " + std::to_string(surface.material) +
-                            ", but the scene has " + std::to_string(scene.materials.size()));
-    }
+    checkMaterial(surface, scene.materials.size());
+}
+
+/// Whether the two are drawn alike but for their constants.
+bool drawnAlike(const scene::Surface& a, const scene::Surface& b) {
+    const auto fixed = [](const scene::Surface& surface) {
+        return std::tuple(surface.baseColorTexture, surface.normalTexture, surface.metallicRoughnessTexture,
+                          surface.thicknessTexture, surface.alphaMask, surface.doubleSided);
+    };
+    return fixed(a) == fixed(b);
+}
+
+/// Whether the two have the same holes.
+bool masksAlike(const scene::Surface& a, const scene::Surface& b) {
+    return !a.alphaMask ||
+           (a.baseColor.a == b.baseColor.a && a.alphaCutoff == b.alphaCutoff && a.uvTransform == b.uvTransform);
 }
 
 std::uint32_t makeFlags(const scene::Surface& surface) {
@@ -86,12 +108,13 @@ vk::raii::Sampler makeTextureSampler(const Gpu& gpu, vk::SamplerAddressMode mode
 
 } // namespace
 
-GpuScene::GpuScene(Gpu& gpu, const scene::Scene& scene) {
+GpuScene::GpuScene(Gpu& gpu, const scene::Scene& scene, std::uint32_t framesInFlight)
+    : materialCount_(scene.materials.size()), surfaces_(scene.surfaces) {
     std::for_each(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { check(scene, mesh); });
     std::for_each(scene.surfaces.begin(), scene.surfaces.end(), [&](const auto& surface) { check(scene, surface); });
     uploadGeometry(gpu, scene);
     uploadTextures(gpu, scene);
-    uploadSurfaces(gpu, scene);
+    uploadSurfaces(gpu, scene, framesInFlight);
 }
 
 void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
@@ -153,12 +176,30 @@ void GpuScene::uploadTextures(Gpu& gpu, const scene::Scene& scene) {
     upload(white);
 }
 
-void GpuScene::uploadSurfaces(Gpu& gpu, const scene::Scene& scene) {
-    std::vector<shared::SurfaceConstants> constants;
-    std::transform(scene.surfaces.begin(), scene.surfaces.end(), std::back_inserter(constants), makeSurfaceConstants);
-    surfaces_ = uploadBuffer(gpu, "surfaces", bytes(constants), vk::BufferUsageFlagBits::eStorageBuffer);
+void GpuScene::setSurfaces(std::span<const scene::Surface> surfaces) {
+    if (surfaces.size() != surfaces_.size()) {
+        throw RendererError("the scene has " + std::to_string(surfaces_.size()) + " surfaces and cannot get " +
+                            std::to_string(surfaces.size()));
+    }
+    bool sameHoles = true;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (!drawnAlike(surfaces[i], surfaces_[i])) {
+            throw RendererError("the surface '" + surfaces[i].name +
+                                "' cannot get other textures, another alphaMask or another doubleSided");
+        }
+        checkMaterial(surfaces[i], materialCount_);
+        sameHoles = sameHoles && masksAlike(surfaces[i], surfaces_[i]);
+    }
+    surfaces_.assign(surfaces.begin(), surfaces.end());
+    std::transform(surfaces_.begin(), surfaces_.end(), surfaceConstants_.begin(), makeSurfaceConstants);
+    casterVersion_ += sameHoles ? 0 : 1;
+}
 
+void GpuScene::uploadSurfaces(Gpu& gpu, const scene::Scene& scene, std::uint32_t framesInFlight) {
+    std::transform(surfaces_.begin(), surfaces_.end(), std::back_inserter(surfaceConstants_), makeSurfaceConstants);
     const std::uint32_t count = std::max<std::uint32_t>(static_cast<std::uint32_t>(scene.surfaces.size()), 1);
+    constants_ = FrameBuffer(gpu, "surfaces", count * sizeof(shared::SurfaceConstants),
+                             vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
     textureSetLayout_ = makeSetLayout(gpu, textureTypes, vk::ShaderStageFlagBits::eFragment);
     texturePool_ = makePool(gpu, textureTypes, count);
     const auto binding = [&](std::uint32_t texture) {

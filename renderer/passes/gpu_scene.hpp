@@ -1,8 +1,8 @@
 // A scene's geometry, surfaces and textures on the device. Internal to the renderer.
 #pragma once
 
-#include "renderer/vulkan/pipelines.hpp"
 #include "renderer/passes/shader_types.h"
+#include "renderer/vulkan/descriptor_sets.hpp"
 #include "scene/scene.hpp"
 
 namespace nacre::renderer {
@@ -23,10 +23,17 @@ struct Draw {
 class GpuScene {
 public:
     /// Throws RendererError naming the mesh or texture that is not consistent in itself.
-    GpuScene(Gpu& gpu, const scene::Scene& scene);
+    GpuScene(Gpu& gpu, const scene::Scene& scene, std::uint32_t framesInFlight);
 
-    const std::vector<Draw>& draws() const { return draws_; }
-    const Buffer& surfaces() const { return surfaces_; }
+    /// Replaces the surfaces, for frames that begin later. Throws RendererError for another number of them, and naming
+    /// a surface whose textures, alphaMask or doubleSided are not what they were.
+    void setSurfaces(std::span<const scene::Surface> surfaces);
+    /// Before what draws frame `frame` is recorded; its previous use must have finished.
+    void beginFrame(std::uint32_t frame) { constants_.write(frame, std::as_bytes(std::span(surfaceConstants_))); }
+    /// Counts the changes of what a shadow map sees: here of the surfaces that have holes.
+    std::uint64_t casterVersion() const { return casterVersion_; }
+    /// shared::SurfaceConstants, one a surface.
+    const FrameBuffer& surfaces() const { return constants_; }
     /// Set 1 of every pipeline that draws the scene: base colour, normal, metallic-roughness, thickness textures.
     const vk::raii::DescriptorSetLayout& textureSetLayout() const { return textureSetLayout_; }
 
@@ -42,13 +49,17 @@ public:
 private:
     void uploadGeometry(Gpu& gpu, const scene::Scene& scene);
     void uploadTextures(Gpu& gpu, const scene::Scene& scene);
-    void uploadSurfaces(Gpu& gpu, const scene::Scene& scene);
+    void uploadSurfaces(Gpu& gpu, const scene::Scene& scene, std::uint32_t framesInFlight);
 
     std::vector<Draw> draws_;
+    std::size_t materialCount_ = 0;
+    std::vector<scene::Surface> surfaces_;
+    std::vector<shared::SurfaceConstants> surfaceConstants_;
+    std::uint64_t casterVersion_ = 0;
     Buffer positions_;
     Buffer attributes_;
     Buffer indices_;
-    Buffer surfaces_;
+    FrameBuffer constants_;
     std::vector<Image> textures_; ///< the scene's, then a white one
     vk::raii::Sampler repeatSampler_ = nullptr;
     vk::raii::Sampler clampSampler_ = nullptr;

@@ -62,7 +62,7 @@ vec3 arrivingLight(LightConstants light, vec3 position, out vec3 toLight) {
     float distance = length(offset);
     toLight = offset / max(distance, 1e-20);
     float meters = distance * light.irradiance.w;
-    float ratio = light.position.w > 0.0 ? meters / light.position.w : 0.0;
+    float ratio = light.position.w > 0.0 ? distance / light.position.w : 0.0;
     float falloff = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0) / max(meters * meters, 1e-8);
     float cone = 1.0;
     if (light.kind.x == lightSpot) {

@@ -1,9 +1,8 @@
 #include "renderer/passes/lighting.hpp"
 
-#include "ambient_occlusion_comp.spv.h"
-#include "ambient_occlusion_filter_comp.spv.h"
 #include "lighting_comp.spv.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace nacre::renderer {
@@ -17,42 +16,19 @@ ImageInfo lightImage(const char* name, vk::Extent2D extent, vk::ImageUsageFlags 
             .usage = Kind::eStorage | Kind::eSampled | Kind::eTransferSrc | extra};
 }
 
-ImageInfo visibilityImage(const char* name, vk::Extent2D extent) {
-    return {.name = name,
-            .format = vk::Format::eR32Sfloat,
-            .extent = extent,
-            .usage = vk::ImageUsageFlagBits::eStorage | vk::ImageUsageFlagBits::eSampled};
-}
-
 } // namespace
 
-AmbientOcclusion::AmbientOcclusion(Gpu& gpu, GBuffer& gbuffer, const vk::raii::Sampler& nearest) {
-    Image& depth = gbuffer.image(GBuffer::Depth);
-    pattern_ = Image(gpu, visibilityImage("ambient occlusion pattern", depth.info().extent));
-    visibility_ = Image(gpu, visibilityImage("ambient occlusion", depth.info().extent));
-    search_ = ComputePass(gpu, "ambient occlusion", ambient_occlusion_comp_spv,
-                          {uniform(gbuffer.view()), sampled(depth, nearest),
-                           sampled(gbuffer.image(GBuffer::VertexNormal), nearest), written(pattern_)},
-                          sizeof(float));
-    filter_ = ComputePass(gpu, "ambient occlusion filter", ambient_occlusion_filter_comp_spv,
-                          {sampled(pattern_, nearest), sampled(depth, nearest), written(visibility_)});
-}
-
-void AmbientOcclusion::record(const vk::raii::CommandBuffer& commandBuffer, float radius) const {
-    search_.record(commandBuffer, pattern_.info().extent, bytesOf(radius));
-    filter_.record(commandBuffer, visibility_.info().extent);
-}
-
-Lighting::Lighting(Gpu& gpu, const Inputs& inputs, const std::vector<shared::LightConstants>& lights,
-                   vk::ImageUsageFlags irradianceUsage)
-    : lightCount_(static_cast<std::uint32_t>(lights.size())) {
+Lighting::Lighting(Gpu& gpu, const Inputs& inputs, std::size_t maxLights, vk::ImageUsageFlags irradianceUsage,
+                   std::uint32_t framesInFlight) {
     GBuffer& gbuffer = inputs.gbuffer;
     const vk::Extent2D extent = gbuffer.image(GBuffer::Depth).info().extent;
     irradiance_ = Image(gpu, lightImage("irradiance", extent, irradianceUsage));
     specular_ = Image(gpu, lightImage("specular", extent, {}));
-    lights_ = uploadBuffer(gpu, "lights", std::as_bytes(std::span(lights)), vk::BufferUsageFlagBits::eStorageBuffer);
-    coverage_ = Buffer(gpu, "subsurface coverage", sizeof(std::uint32_t), vk::BufferUsageFlagBits::eStorageBuffer,
-                       Buffer::Place::Host);
+    constexpr vk::BufferUsageFlags read = vk::BufferUsageFlagBits::eStorageBuffer;
+    lights_ = FrameBuffer(gpu, "lights", std::max<std::size_t>(maxLights, 1) * sizeof(shared::LightConstants), read,
+                          framesInFlight);
+    coverage_ =
+        FrameBuffer(gpu, "subsurface coverage", sizeof(std::uint32_t), read, framesInFlight, Buffer::Place::Host);
     const auto pixels = [&](GBuffer::Attachment attachment) {
         return sampled(gbuffer.image(attachment), inputs.nearest);
     };
@@ -65,12 +41,16 @@ Lighting::Lighting(Gpu& gpu, const Inputs& inputs, const std::vector<shared::Lig
          sampled(inputs.occlusion.visibility(), inputs.nearest), sampled(inputs.shadowMaps.image(), inputs.nearest),
          sampled(environment.specular(), environment.sampler()),
          sampled(environment.reflectance(), environment.clampSampler()), written(irradiance_), written(specular_)},
-        sizeof lightCount_);
+        sizeof(std::uint32_t));
 }
 
-void Lighting::record(const vk::raii::CommandBuffer& commandBuffer) {
-    std::memset(coverage_.mapped(), 0, sizeof(std::uint32_t));
-    pass_.record(commandBuffer, irradiance_.info().extent, bytesOf(lightCount_));
+void Lighting::record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
+                      std::span<const shared::LightConstants> lights) {
+    const std::uint32_t none = 0;
+    coverage_.write(frame, bytesOf(none));
+    lights_.write(frame, std::as_bytes(lights));
+    const auto lightCount = static_cast<std::uint32_t>(lights.size());
+    pass_.record(commandBuffer, frame, irradiance_.info().extent, bytesOf(lightCount));
     const vk::MemoryBarrier2 toHost{.srcStageMask = vk::PipelineStageFlagBits2::eComputeShader,
                                     .srcAccessMask = vk::AccessFlagBits2::eShaderWrite,
                                     .dstStageMask = vk::PipelineStageFlagBits2::eHost,
@@ -78,9 +58,9 @@ void Lighting::record(const vk::raii::CommandBuffer& commandBuffer) {
     commandBuffer.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &toHost});
 }
 
-std::uint32_t Lighting::subsurfacePixels() const {
+std::uint32_t Lighting::subsurfacePixels(std::uint32_t frame) const {
     std::uint32_t pixels = 0;
-    std::memcpy(&pixels, coverage_.mapped(), sizeof pixels);
+    std::memcpy(&pixels, coverage_.mapped(frame), sizeof pixels);
     return pixels;
 }
 

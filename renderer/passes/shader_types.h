@@ -25,7 +25,7 @@ NACRE_CONSTANT hasMetallicRoughnessTexture = 4;
 NACRE_CONSTANT hasThicknessTexture = 8;
 NACRE_CONSTANT isDoubleSided = 16;
 
-/// LightConstants::kind.x, the order of scene::LightKind and NacreLightKind
+/// LightConstants::kind.x, as NacreLightKind
 NACRE_CONSTANT lightDirectional = 0;
 NACRE_CONSTANT lightSpot = 1;
 NACRE_CONSTANT lightPoint = 2;
@@ -37,9 +37,9 @@ NACRE_CONSTANT specularLevels = 6;
 struct ViewConstants {
     mat4 clipFromWorld;
     mat4 worldFromView;
-    vec4 viewRow;  ///< dot with vec4(world position, 1) is the linear depth
+    vec4 viewRow;   ///< dot with vec4(world position, 1) is the linear depth
     vec4 unproject; ///< view xy = (ndc + zw) * xy, times the linear depth when the projection is a perspective
-    uvec4 size;    ///< width, height, 1 for a perspective, 0
+    uvec4 size;     ///< width, height, 1 for a perspective, 0
 };
 
 /// A surface's constants; textures are bound beside them.
@@ -58,9 +58,9 @@ struct DrawConstants {
     uvec4 index; ///< x: surface, y: shadow layer, z: 1 when the transform mirrors, w: flags above
 };
 
-/// One light and how to read its shadow map.
+/// What the shaders read of a NacreLight.
 struct LightConstants {
-    vec4 position;   ///< w: range in metres, 0 = unlimited
+    vec4 position;   ///< w: range in scene units, 0 = unlimited
     vec4 direction;  ///< the way the light travels, normalised; w: shadow range in scene units
     vec4 irradiance; ///< facing it; spot, point: at one metre. w: metres per unit
     vec4 cone;       ///< x, y: scale and offset of the cone's cosine

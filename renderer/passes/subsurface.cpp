@@ -1,12 +1,11 @@
 #include "renderer/passes/subsurface.hpp"
 
 #include "renderer/effect_arguments.hpp"
+#include "renderer/vulkan/debug_label.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 
 namespace nacre::renderer {
 namespace {
@@ -29,25 +28,12 @@ std::uint32_t techniquesFor(NacreTechnique technique, const std::vector<Material
     return 1u << technique | (asks ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0);
 }
 
-void copy(float (&target)[3], const glm::vec3& value) {
-    std::copy_n(glm::value_ptr(value), 3, target);
+NacreImage asInput(const Image& image) {
+    return effectImage(image, usage::computeRead);
 }
 
-NacreLight convert(const PlacedLight& light) {
-    NacreLight result{};
-    result.kind = static_cast<NacreLightKind>(light.kind);
-    copy(result.position, light.position);
-    copy(result.direction, light.direction);
-    copy(result.irradiance, light.irradiance);
-    result.range = light.range;
-    result.innerConeAngle = light.innerConeAngle;
-    result.outerConeAngle = light.outerConeAngle;
-    const bool shadowed = light.shadowLayer != shared::noShadow;
-    result.shadowMap = shadowed ? 0 : NACRE_NO_SHADOW_MAP;
-    result.shadowLayer = shadowed ? light.shadowLayer : 0;
-    std::copy_n(glm::value_ptr(light.shadowClipFromWorld), 16, result.shadowClipFromWorld);
-    result.shadowRange = light.shadowRange;
-    return result;
+NacreImage asOutput(const Image& image) {
+    return effectImage(image, usage::computeWrite);
 }
 
 shared::TransmissionConstants makeTransmission(const Material& material) {
@@ -83,35 +69,30 @@ vk::ImageUsageFlags effectUsage(NacreImageSlot slot) {
     return static_cast<vk::ImageUsageFlags>(requirements.usage);
 }
 
-Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
-                       const std::vector<PlacedLight>& lights)
-    : info_(info),
-      pipelines_(gpu.device, vk::PipelineCacheCreateInfo()),
-      materials_(checked(materials)),
-      message_(std::make_unique<std::string>()) {
-    std::transform(lights.begin(), lights.end(), std::back_inserter(lights_),
-                   [](const PlacedLight& light) { return convert(light); });
+SubsurfaceImages::SubsurfaceImages(Gpu& gpu, vk::Extent2D extent, bool withThickness) {
     constexpr vk::Format color = vk::Format::eR16G16B16A16Sfloat;
-    scattered_ = makeOutput(gpu, "scattered", color, info.extent, NACRE_IMAGE_SCATTERED);
-    transmitted_ = makeOutput(gpu, "transmitted", color, info.extent, NACRE_IMAGE_TRANSMITTED);
-    if (info.thickness) {
-        thickness_ = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, info.extent, NACRE_IMAGE_THICKNESS_OUT);
+    scattered = makeOutput(gpu, "scattered", color, extent, NACRE_IMAGE_SCATTERED);
+    transmitted = makeOutput(gpu, "transmitted", color, extent, NACRE_IMAGE_TRANSMITTED);
+    if (withThickness) {
+        thickness = makeOutput(gpu, "thickness", vk::Format::eR16Sfloat, extent, NACRE_IMAGE_THICKNESS_OUT);
     }
-    transmissions_ = Buffer(gpu, "transmissions", (materials.size() + 1) * sizeof(shared::TransmissionConstants),
-                            vk::BufferUsageFlagBits::eStorageBuffer, Buffer::Place::Host);
-    createContext(gpu, techniquesFor(info.technique, materials));
+}
+
+Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials)
+    : gpu_(gpu), info_(info), materials_(checked(materials)), message_(std::make_unique<std::string>()) {
+    createContext(techniquesFor(info.technique, materials));
     setMaterials(materials);
 }
 
-void Subsurface::createContext(Gpu& gpu, std::uint32_t techniques) {
-    NacreContextInfo contextInfo = effectContextInfo(gpu);
-    contextInfo.pipelineCache = *pipelines_;
+void Subsurface::createContext(std::uint32_t techniques) {
+    NacreContextInfo contextInfo = effectContextInfo(gpu_);
+    contextInfo.pipelineCache = *gpu_.pipelineCache;
     contextInfo.maxExtent = info_.extent;
     contextInfo.techniques = techniques;
     contextInfo.framesInFlight = info_.framesInFlight;
     contextInfo.recordsPerFrame = info_.recordsPerFrame;
     contextInfo.maxMaterials = std::max(1u, static_cast<std::uint32_t>(materials_.size()));
-    contextInfo.maxLights = std::max(1u, static_cast<std::uint32_t>(lights_.size()));
+    contextInfo.maxLights = std::max(1u, info_.maxLights);
     contextInfo.messageCallback = keepMessage;
     contextInfo.userData = message_.get();
     NacreContext context = nullptr;
@@ -141,7 +122,7 @@ void Subsurface::setMaterials(const std::vector<Material>& materials) {
     }
     materials_ = materials;
     bakedRadius_.reset();
-    std::memcpy(transmissions_.mapped(), transmissions.data(), transmissions.size() * sizeof(transmissions[0]));
+    transmissions_ = std::move(transmissions);
 }
 
 NacreView Subsurface::makeView(const View& view) const {
@@ -153,98 +134,97 @@ NacreView Subsurface::makeView(const View& view) const {
     return result;
 }
 
-void Subsurface::beginFrame(std::uint32_t index) {
+bool Subsurface::scatteredHasAlbedo() const {
+    return std::ranges::any_of(materials_,
+                               [](const Material& material) { return material.albedoUse == AlbedoUse::PreAndPost; });
+}
+
+void Subsurface::beginFrame(std::uint32_t frame) {
     message_->clear();
-    check(nacreBeginFrame(context_.get(), index));
+    check(nacreBeginFrame(context_.get(), frame));
 }
 
-void Subsurface::prepareImages(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
-                               Image& shadowMaps) {
-    GBuffer& gbuffer = frame.gbuffer;
-    const ImageUse uses[] = {{irradiance, usage::computeRead},
-                             {gbuffer.image(GBuffer::Depth), usage::computeRead},
-                             {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
-                             {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
-                             {gbuffer.image(GBuffer::Albedo), usage::computeRead},
-                             {gbuffer.image(GBuffer::Thickness), usage::computeRead},
-                             {shadowMaps, usage::computeRead},
-                             {scattered_, usage::computeWrite},
-                             {transmitted_, usage::computeWrite},
-                             {thickness_, usage::computeWrite}}; // last: only where there is one
-    prepare(commandBuffer, std::span(uses).first(std::size(uses) - (info_.thickness ? 0 : 1)));
-}
-
-void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
-                          const EffectSettings& settings) {
-    GBuffer& gbuffer = frame.gbuffer;
-    Image& depth = gbuffer.image(GBuffer::Depth);
-    Image& materialId = gbuffer.image(GBuffer::MaterialId);
-    Image& normal = gbuffer.image(GBuffer::VertexNormal);
-    Image& authored = gbuffer.image(GBuffer::Thickness);
-    const NacreImage maps = effectImage(shadowMaps);
-    const NacreCost cost = transmitCost();
-    NacreTransmitInfo info{};
-    info.view = makeView(frame.view);
-    info.frame = frame.index;
-    info.depth = effectImage(depth);
-    info.materialId = effectImage(materialId);
-    info.normal = effectImage(normal);
-    info.thickness = effectImage(authored);
-    info.lightCount = static_cast<std::uint32_t>(lights_.size());
-    info.lights = lights_.data();
-    info.shadowMapCount = 1;
-    info.shadowMaps = &maps;
-    info.baselines = &settings.baselines;
-    info.transmitted = effectImage(transmitted_);
-    if (info_.thickness) {
-        info.thicknessOut = effectImage(thickness_);
-    }
-    info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "transmit: ");
-    check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
-}
-
-void Subsurface::prepareSettings(Gpu& gpu, const EffectSettings& settings) {
-    const std::uint32_t needed = techniques_ | techniquesFor(settings.technique, materials_);
-    if (needed != techniques_) {
-        createContext(gpu, needed);
-        setMaterials(materials_);
-    }
-    const bool bakes =
-        settings.technique == NACRE_TECHNIQUE_THESIS && settings.baselines.thesisBakedKernel && !materials_.empty();
-    if (bakes && bakedRadius_ != settings.baselines.thesisRadius) {
-        check(nacreBakeThesisKernel(context_.get(), 1, settings.baselines.thesisRadius));
-        bakedRadius_ = settings.baselines.thesisRadius;
+void Subsurface::createContext(std::uint32_t techniques) {
+    NacreContextInfo contextInfo = effectContextInfo(gpu_);
+    contextInfo.pipelineCache = *gpu_.pipelineCache;
     }
 }
 
-void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
+void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs,
                          const EffectSettings& settings) {
-    GBuffer& gbuffer = frame.gbuffer;
-    Image& depth = gbuffer.image(GBuffer::Depth);
-    Image& materialId = gbuffer.image(GBuffer::MaterialId);
-    Image& normal = gbuffer.image(GBuffer::VertexNormal);
+    GBuffer& gbuffer = inputs.gbuffer;
     const NacreCost cost = scatterCost(settings.technique);
     NacreScatterInfo info{};
-    info.view = makeView(frame.view);
-    info.frame = frame.index;
+    info.view = makeView(inputs.view);
+    info.frame = inputs.frame;
     info.technique = settings.technique;
     info.burleySampleBudget = settings.burleySampleBudget;
     NacreBaselineSettings baselines = settings.baselines;
     baselines.thesisBakedKernel = baselines.thesisBakedKernel && !materials_.empty();
     info.baselines = &baselines;
-    info.irradiance = effectImage(irradiance);
-    info.depth = effectImage(depth);
-    info.materialId = effectImage(materialId);
-    info.normal = effectImage(normal);
-    scatteredHasAlbedo_ = std::ranges::any_of(
-        materials_, [](const Material& material) { return material.albedoUse == AlbedoUse::PreAndPost; });
-    if (scatteredHasAlbedo_) {
-        info.albedo = effectImage(gbuffer.image(GBuffer::Albedo));
+    info.irradiance = asInput(inputs.irradiance);
+    info.depth = asInput(gbuffer.image(GBuffer::Depth));
+    info.materialId = asInput(gbuffer.image(GBuffer::MaterialId));
+    info.normal = asInput(gbuffer.image(GBuffer::VertexNormal));
+    if (scatteredHasAlbedo()) {
+        info.albedo = asInput(gbuffer.image(GBuffer::Albedo));
     }
-    info.scattered = effectImage(scattered_);
+    info.scattered = asOutput(inputs.outputs.scattered);
     info.skipUnscattered = VK_TRUE; // compose asks the id
-    info.timestamps = frame.timer.reserve({cost.passNames, cost.passCount}, "scatter: ");
+    info.timestamps = inputs.timer.reserve({cost.passNames, cost.passCount}, "scatter: ");
     check(nacreCmdScatter(context_.get(), *commandBuffer, &info));
+}
+
+void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs,
+                          const EffectSettings& settings) {
+    GBuffer& gbuffer = inputs.gbuffer;
+    const NacreImage maps = asInput(inputs.shadowMaps);
+    const NacreCost cost = transmitCost();
+    NacreTransmitInfo info{};
+    info.view = makeView(inputs.view);
+    info.frame = inputs.frame;
+    info.depth = asInput(gbuffer.image(GBuffer::Depth));
+    info.materialId = asInput(gbuffer.image(GBuffer::MaterialId));
+    info.normal = asInput(gbuffer.image(GBuffer::VertexNormal));
+    info.thickness = asInput(gbuffer.image(GBuffer::Thickness));
+    info.lightCount = static_cast<std::uint32_t>(inputs.lights.size());
+    info.lights = inputs.lights.data();
+    info.shadowMapCount = 1;
+    info.shadowMaps = &maps;
+    info.baselines = &settings.baselines;
+    info.transmitted = asOutput(inputs.outputs.transmitted);
+    if (inputs.outputs.thickness) {
+        info.thicknessOut = asOutput(*inputs.outputs.thickness);
+    }
+    info.timestamps = inputs.timer.reserve({cost.passNames, cost.passCount}, "transmit: ");
+    check(nacreCmdTransmit(context_.get(), *commandBuffer, &info));
+}
+
+bool Subsurface::bakes(const EffectSettings& settings) const {
+    return settings.technique == NACRE_TECHNIQUE_THESIS && settings.baselines.thesisBakedKernel && !materials_.empty();
+}
+
+bool Subsurface::isPrepared(const EffectSettings& settings) const {
+    const std::uint32_t needed = techniquesFor(settings.technique, materials_);
+    return (needed & ~techniques_) == 0 && (!bakes(settings) || bakedRadius_ == settings.baselines.thesisRadius);
+}
+
+void Subsurface::prepare(const EffectSettings& settings) {
+    const std::uint32_t needed = techniques_ | techniquesFor(settings.technique, materials_);
+    if (needed != techniques_) {
+        createContext(needed);
+        setMaterials(materials_);
+    }
+    if (bakes(settings) && bakedRadius_ != settings.baselines.thesisRadius) {
+        check(nacreBakeThesisKernel(context_.get(), 1, settings.baselines.thesisRadius));
+        bakedRadius_ = settings.baselines.thesisRadius;
+    }
+}
+
+void Subsurface::resize(vk::Extent2D extent) {
+    message_->clear();
+    check(nacreResize(context_.get(), extent));
+    info_.extent = extent;
 }
 
 NacreCost Subsurface::scatterCost(NacreTechnique technique) const {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "nacre/nacre.h"
-#include "renderer/vulkan/frame_timer.hpp"
+#include "renderer/frame_settings.hpp"
 #include "renderer/passes/gbuffer.hpp"
-#include "renderer/light_placement.hpp"
-#include "renderer/renderer.hpp"
+#include "renderer/vulkan/frame_timer.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace nacre::renderer {
@@ -14,54 +14,66 @@ namespace nacre::renderer {
 /// What the effect wants of an image beyond what the renderer does with it.
 vk::ImageUsageFlags effectUsage(NacreImageSlot slot);
 
-/// The effect's context, its outputs, and the materials in it.
+/// What the effect writes.
+struct SubsurfaceImages {
+    SubsurfaceImages(Gpu& gpu, vk::Extent2D extent, bool withThickness);
+
+    Image scattered;                ///< RGBA16F. Pixels without a material are not written
+    Image transmitted;              ///< irradiance, without albedo. RGBA16F
+    std::optional<Image> thickness; ///< the one that transmission used, mm, 0 where there was none. R16F
+
+    template <typename Action> void forEachImage(const Action& action) {
+        action(scattered);
+        action(transmitted);
+        if (thickness) {
+            action(*thickness);
+        }
+    }
+};
+
+/// The effect's context, and the materials in it.
 class Subsurface {
 public:
     struct Info {
         vk::Extent2D extent;
         std::uint32_t framesInFlight = 1;
         std::uint32_t recordsPerFrame = 1; ///< of the effect
+        std::uint32_t maxLights = 1;
         float metersPerUnit = 1;
-        bool thickness = false;                             ///< RenderSettings::thickness
-        NacreTechnique technique = NACRE_TECHNIQUE_DEFAULT; ///< the first; prepareSettings adds others
+        NacreTechnique technique = NACRE_TECHNIQUE_DEFAULT; ///< the first; `prepare` adds others
     };
 
-    Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials,
-               const std::vector<PlacedLight>& lights);
+    Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials);
 
-    /// Scattered light (RGBA16F). Pixels without a material are not written.
-    Image& scattered() { return scattered_; }
-    /// Whether the last `scatter` has put the albedo in it, as it must where materials apply it before, too; else it is
-    /// left to compose, which reads it anyway.
-    bool scatteredHasAlbedo() const { return scatteredHasAlbedo_; }
-    /// Transmitted irradiance, without albedo. RGBA16F.
-    Image& transmitted() { return transmitted_; }
-    /// The thickness transmission used, mm, 0 where there was none (R16F); only where Info::thickness asks for it.
-    Image& thickness() { return thickness_; }
-    /// TransmissionConstants by material id, for compose.
-    const Buffer& transmissions() const { return transmissions_; }
+    /// Whether scattered light has the albedo in it, as it must where materials apply it before, too; else it is left
+    /// to compose, which reads it anyway.
+    bool scatteredHasAlbedo() const;
+    /// By material id, for compose.
+    std::span<const shared::TransmissionConstants> transmissions() const { return transmissions_; }
 
-    struct Frame {
-        std::uint32_t index = 0;
-        View view;
+    struct Inputs {
+        std::uint32_t frame = 0;
+        const View& view;
+        std::span<const NacreLight> lights;
         GBuffer& gbuffer;
+        Image& irradiance;
+        Image& shadowMaps;
+        SubsurfaceImages& outputs;
         FrameTimer& timer;
     };
 
-    /// Before anything of frame `index` is recorded; its previous use must have finished.
-    void beginFrame(std::uint32_t index);
-    /// The barriers before `scatter` and `transmit`, all at once, so that there is none between the two.
-    void prepareImages(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
-                       Image& shadowMaps);
-    void scatter(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& irradiance,
-                 const EffectSettings& settings);
-    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Frame& frame, Image& shadowMaps,
-                  const EffectSettings& settings);
-    /// Compiles what the settings need beyond the context's own pipelines; the device must be idle. Before `scatter`
-    /// with new settings or materials.
-    void prepareSettings(Gpu& gpu, const EffectSettings& settings);
-    /// Replaces all materials; the device must be idle.
+    /// Before anything of frame `frame` is recorded; its previous use must have finished.
+    void beginFrame(std::uint32_t frame);
+    /// The barriers of both at once, then scatter, then transmit, which waits for nothing of scatter's.
+    void record(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs, const EffectSettings& settings);
+    /// Whether `record` can do what the settings ask with the materials as they are.
+    bool isPrepared(const EffectSettings& settings) const;
+    /// Compiles what is missing; the device must have finished with all frames.
+    void prepare(const EffectSettings& settings);
+    /// Replaces all materials, for frames that begin later.
     void setMaterials(const std::vector<Material>& materials);
+    /// The device must have finished with all frames.
+    void resize(vk::Extent2D extent);
     NacreCost scatterCost(NacreTechnique technique) const;
     NacreCost transmitCost() const;
 
@@ -72,18 +84,16 @@ private:
 
     void check(NacreResult result) const;
     /// Replaces the context, if there is one, by one for these techniques.
-    void createContext(Gpu& gpu, std::uint32_t techniques);
+    void createContext(std::uint32_t techniques);
+    void scatter(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs, const EffectSettings& settings);
+    void transmit(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs, const EffectSettings& settings);
     NacreView makeView(const View& view) const;
+    bool bakes(const EffectSettings& settings) const;
 
+    Gpu& gpu_;
     Info info_;
-    std::vector<NacreLight> lights_;
-    vk::raii::PipelineCache pipelines_{nullptr}; ///< from one context to the next
-    Image scattered_;
-    Image transmitted_;
-    Image thickness_;
-    Buffer transmissions_;
     std::vector<Material> materials_;
-    bool scatteredHasAlbedo_ = false;
+    std::vector<shared::TransmissionConstants> transmissions_;
     std::uint32_t techniques_ = 0;             ///< NacreContextInfo::techniques
     std::optional<std::uint32_t> bakedRadius_; ///< of the first material as it is
     std::unique_ptr<std::string> message_;     ///< the effect's last error; its address is known to the context

@@ -60,6 +60,9 @@ void FrameTimer::writeTimestamp(const vk::raii::CommandBuffer& commandBuffer) {
 
 void FrameTimer::read(FrameReport& report) const {
     report.passes.clear();
+    if (queryCount_ == 0) {
+        return;
+    }
     const auto [result, ticks] = pool_.getResults<std::uint64_t>(0, queryCount_, queryCount_ * sizeof(std::uint64_t),
                                                                  sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
     if (result != vk::Result::eSuccess || validBits_ == 0) {

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "nacre/nacre.h"
+#include "renderer/frame_report.hpp"
+#include "renderer/frame_settings.hpp"
 #include "renderer/vulkan/open_device.hpp"
-#include "renderer/renderer.hpp"
 
 #include <span>
 #include <utility>
@@ -33,7 +34,7 @@ public:
     /// counts from the timestamp before all of them, so that barriers belong to it; besides, Mesa's software device
     /// writes a timestamp late that a dispatch follows without a barrier.
     NacreTimestamps reserve(std::span<const char* const> passNames, const std::string& prefix);
-    /// Fills the report's passes and total.
+    /// Fills the report's passes and total; leaves them empty while the device has not finished the frame.
     void read(FrameReport& report) const;
 
 private:

@@ -170,11 +170,27 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& mes
             .pUserData = &messages};
 }
 
+std::vector<const char*> pointers(const std::vector<std::string>& texts) {
+    std::vector<const char*> result;
+    std::transform(texts.begin(), texts.end(), std::back_inserter(result),
+                   [](const std::string& text) { return text.c_str(); });
+    return result;
+}
+
 /// With `messages`, the validation layer is on and reports into them.
-vk::raii::Instance openInstance(const vk::raii::Context& context, bool labels, std::vector<std::string>* messages) {
+vk::raii::Instance openInstance(const vk::raii::Context& context, bool labels,
+                                const std::vector<std::string>& moreExtensions, std::vector<std::string>* messages) {
     const vk::ApplicationInfo application{.pApplicationName = "nacre", .apiVersion = VK_API_VERSION_1_3};
     const std::vector<const char*> layers(messages ? 1 : 0, validationLayer);
-    const std::vector<const char*> extensions(labels ? 1 : 0, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    for (const std::string& extension : moreExtensions) {
+        if (!hasExtension(context, extension)) {
+            throw RendererError("Vulkan on this machine lacks the extension " + extension);
+        }
+    }
+    std::vector<const char*> extensions = pointers(moreExtensions);
+    if (labels) {
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
     const std::array checks{vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
     vk::ValidationFeaturesEXT validation{.enabledValidationFeatureCount = checks.size(),
                                          .pEnabledValidationFeatures = checks.data()};
@@ -241,8 +257,20 @@ std::size_t choose(const std::vector<DeviceDescription>& devices, const std::str
     return best.value_or(0);
 }
 
+/// Throws RendererError naming an extension that the device lacks.
+void checkExtensions(const vk::raii::PhysicalDevice& device, const DeviceDescription& description,
+                     const std::vector<std::string>& extensions) {
+    const auto offered = device.enumerateDeviceExtensionProperties();
+    for (const std::string& extension : extensions) {
+        if (std::none_of(offered.begin(), offered.end(),
+                         [&](const auto& other) { return extension == other.extensionName.data(); })) {
+            throw RendererError("the Vulkan device '" + description.name + "' lacks the extension " + extension);
+        }
+    }
+}
+
 vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice, std::uint32_t queueFamily, bool anisotropic,
-                            bool halfFloats) {
+                            bool halfFloats, const std::vector<std::string>& extensionNames) {
     const NacreRequirements needed = effectRequirements();
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{
@@ -255,8 +283,12 @@ vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physicalDevice, std:
     vk::PhysicalDeviceFeatures2 features{.pNext = &features13};
     features.features = needed.features;
     features.features.samplerAnisotropy = anisotropic;
-    return {physicalDevice,
-            vk::DeviceCreateInfo{.pNext = &features, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue}};
+    const std::vector<const char*> extensions = pointers(extensionNames);
+    return {physicalDevice, vk::DeviceCreateInfo{.pNext = &features,
+                                                 .queueCreateInfoCount = 1,
+                                                 .pQueueCreateInfos = &queue,
+                                                 .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                                 .ppEnabledExtensionNames = extensions.data()}};
 }
 
 } // namespace
@@ -269,7 +301,7 @@ std::string readableBytes(std::uint64_t bytes) {
 
 std::vector<DeviceDescription> listDevices() {
     const vk::raii::Context context = openLoader();
-    const vk::raii::Instance instance = openInstance(context, false, nullptr);
+    const vk::raii::Instance instance = openInstance(context, false, {}, nullptr);
     std::vector<DeviceDescription> result;
     for (const vk::raii::PhysicalDevice& device : physicalDevices(instance)) {
         result.push_back(describe(device));
@@ -283,7 +315,8 @@ Device::Implementation::Implementation(const DeviceSettings& settings) : context
                             " is not installed (Debian: vulkan-validationlayers)");
     }
     labels = settings.validation || hasExtension(context, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    instance = openInstance(context, labels, settings.validation ? &validationMessages : nullptr);
+    instance =
+        openInstance(context, labels, settings.instanceExtensions, settings.validation ? &validationMessages : nullptr);
     if (settings.validation) {
         messenger = vk::raii::DebugUtilsMessengerEXT(instance, messengerInfo(validationMessages));
     }
@@ -306,10 +339,12 @@ Device::Implementation::Implementation(const DeviceSettings& settings) : context
     halfFloats = physicalDevice.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>()
                      .get<vk::PhysicalDeviceVulkan12Features>()
                      .shaderFloat16;
-    device = openDevice(physicalDevice, queueFamily, anisotropic, halfFloats);
+    checkExtensions(physicalDevice, description, settings.deviceExtensions);
+    device = openDevice(physicalDevice, queueFamily, anisotropic, halfFloats, settings.deviceExtensions);
     queue = vk::raii::Queue(device, queueFamily, 0);
     commandPool = vk::raii::CommandPool(
         device, {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queueFamily});
+    pipelineCache = vk::raii::PipelineCache(device, vk::PipelineCacheCreateInfo());
 }
 
 void Device::Implementation::submitAndWait(const std::function<void(const vk::raii::CommandBuffer&)>& recorder) {

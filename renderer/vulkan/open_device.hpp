@@ -30,6 +30,7 @@ struct Device::Implementation {
     vk::raii::Device device = nullptr;
     vk::raii::Queue queue = nullptr;
     vk::raii::CommandPool commandPool = nullptr;
+    vk::raii::PipelineCache pipelineCache = nullptr; ///< of everything that is compiled, so that nothing is twice
     /// Bytes allocated through Memory (renderer/vulkan/resources.hpp), per heap.
     std::vector<std::uint64_t> allocatedBytes;
 

@@ -60,6 +60,17 @@ void checkLimits(const Gpu& gpu, const vk::ImageCreateInfo& info, const std::str
     }
 }
 
+vk::MemoryPropertyFlags wantedProperties(Buffer::Place place) {
+    switch (place) {
+    case Buffer::Place::Constants:
+        return vk::MemoryPropertyFlagBits::eDeviceLocal;
+    case Buffer::Place::ReadBack:
+        return vk::MemoryPropertyFlagBits::eHostCached;
+    default:
+        return {};
+    }
+}
+
 } // namespace
 
 Memory::Memory(Gpu& gpu, const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
@@ -105,7 +116,7 @@ Buffer::Buffer(Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::Buffe
     buffer_ = vk::raii::Buffer(gpu.device, {.size = bytes, .usage = usage});
     gpu.name(buffer_, name);
     memory_ = Memory(gpu, buffer_.getMemoryRequirements(), place == Place::Device ? Property::eDeviceLocal : host, name,
-                     place == Place::ReadBack ? Property::eHostCached : vk::MemoryPropertyFlags());
+                     wantedProperties(place));
     buffer_.bindMemory(*memory_.handle(), 0);
     if (place != Place::Device) {
         mapped_ = static_cast<std::byte*>(memory_.handle().mapMemory(0, VK_WHOLE_SIZE));
@@ -114,7 +125,7 @@ Buffer::Buffer(Gpu& gpu, const std::string& name, std::uint64_t bytes, vk::Buffe
 
 bool Usage::writes() const {
     using Access = vk::AccessFlagBits2;
-    return static_cast<bool>(access & (Access::eShaderWrite | Access::eColorAttachmentWrite |
+    return static_cast<bool>(access & (Access::eShaderWrite | Access::eMemoryWrite | Access::eColorAttachmentWrite |
                                        Access::eDepthStencilAttachmentWrite | Access::eTransferWrite));
 }
 
@@ -158,6 +169,11 @@ vk::raii::ImageView Image::makeView(const Gpu& gpu, vk::ImageViewType type, std:
                                   .levelCount = 1,
                                   .baseArrayLayer = firstLayer,
                                   .layerCount = layerCount}}};
+}
+
+void Image::forget() {
+    lastUsage_ = {vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eMemoryWrite,
+                  vk::ImageLayout::eUndefined};
 }
 
 void Image::prepare(const Usage& next, std::vector<vk::ImageMemoryBarrier2>& barriers) {

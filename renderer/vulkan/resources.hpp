@@ -33,8 +33,9 @@ class Buffer {
 public:
     enum class Place {
         Device,
-        Host,    ///< for the host to write
-        ReadBack ///< for the host to read: cached where the device has such memory
+        Host,      ///< for the host to write
+        Constants, ///< for the host to write and for passes to read: on the device where it has such memory
+        ReadBack   ///< for the host to read: cached where the device has such memory
     };
 
     Buffer() = default;
@@ -89,7 +90,8 @@ struct ImageInfo {
     vk::ImageViewType viewType = vk::ImageViewType::e2D;
 };
 
-/// An image, a view of all of it, and what it was last used for.
+/// An image, a view of all of it, and what it was last used for: in the order of recording, which must be the order in
+/// which one queue gets it.
 class Image {
 public:
     Image() = default;
@@ -109,6 +111,8 @@ public:
     void prepare(const Usage& next, std::vector<vk::ImageMemoryBarrier2>& barriers);
     /// Says that a barrier recorded elsewhere brought the image here.
     void assume(const Usage& current) { lastUsage_ = current; }
+    /// Says that what was recorded last with the image will not be submitted: its content is lost.
+    void forget();
 
 private:
     ImageInfo info_;
@@ -127,12 +131,6 @@ struct ImageUse {
 void prepare(const vk::raii::CommandBuffer& commandBuffer, std::initializer_list<ImageUse> uses);
 void prepare(const vk::raii::CommandBuffer& commandBuffer, std::span<const ImageUse> uses);
 
-/// A device buffer filled with `bytes` (at least 16 bytes long, so that an empty one can be bound).
-Buffer uploadBuffer(Gpu& gpu, const std::string& name, std::span<const std::byte> bytes, vk::BufferUsageFlags usage);
-/// Fills mip level 0, layer after layer, and makes the other levels by halving; leaves the image ready for `next`.
-void uploadImage(Gpu& gpu, Image& image, std::span<const std::byte> pixels, const Usage& next);
-/// Mip level 0 of layer 0, rows packed.
-std::vector<std::byte> downloadImage(Gpu& gpu, Image& image);
 /// Bytes per pixel of the formats the renderer and the benchmark use.
 std::uint32_t pixelBytes(vk::Format format);
 

@@ -1,5 +1,4 @@
-// Moves bytes between the host and the device's buffers and images.
-#include "renderer/vulkan/resources.hpp"
+#include "renderer/vulkan/transfer.hpp"
 
 #include <algorithm>
 #include <array>

@@ -77,7 +77,7 @@ TEST_F(Effect, LightsWithoutShadowMapNeverGlow) {
     scene.surfaces[0].thickness = 2;
     renderer::RenderSettings settings = effectSettings();
     settings.thickness = true;
-    const renderer::Renderer authored = render(scene, settings);
+    const renderer::Offscreen authored = render(scene, settings);
     EXPECT_GT(at(authored.read(Output::Transmitted), 80, 45), 0.1f);
     EXPECT_NEAR(at(authored.read(Output::Thickness), 80, 45), 2, 0.01f);
 }
@@ -103,7 +103,7 @@ TEST_F(Effect, ScatterAndTransmitReturnNoMoreThanArrives) {
                                       glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)}) {
         scene.lights.push_back(directional(direction));
     }
-    const renderer::Renderer renderer = render(scene, effectSettings());
+    const renderer::Offscreen renderer = render(scene, effectSettings());
     const Pixels irradiance = renderer.read(Output::Irradiance);
     const Pixels scattered = renderer.read(Output::Scattered);
     const Pixels transmitted = renderer.read(Output::Transmitted);
@@ -138,8 +138,8 @@ TEST_F(Effect, PixelsWithoutAMaterialAreWhatTheyAreWithoutIt) {
     add(scene, square(0.1f), glm::translate(glm::mat4(1), {0, 0, 0.05f}));
     scene.lights.push_back(directional({0, 0, -1}, 2));
     scene.lights[0].castsShadow = false;
-    const renderer::Renderer on = render(scene, effectSettings());
-    const renderer::Renderer off = render(scene, plainSettings());
+    const renderer::Offscreen on = render(scene, effectSettings());
+    const renderer::Offscreen off = render(scene, plainSettings());
     const Pixels id = on.read(Output::Material);
     std::size_t withMaterial = 0;
     std::size_t withoutMaterial = 0;
@@ -164,7 +164,7 @@ TEST_F(Effect, ColoursAreAppliedOnceWithEitherAlbedoUse) {
         scene.surfaces[0].baseColor = {0.25f, 0.5f, 0.75f, 1};
         scene.surfaces[0].specular = 0;
         scene.lights.push_back(directional({0, 0, -1}, 2));
-        const renderer::Renderer renderer = render(scene, effectSettings());
+        const renderer::Offscreen renderer = render(scene, effectSettings());
         const Pixels radiance = renderer.read(Output::Radiance);
         const Pixels scattered = renderer.read(Output::Scattered);
         for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -191,7 +191,7 @@ TEST_F(Effect, CostDoesNotDependOnMaterialsOrLayers) {
             add(scene, square(0.01f), glm::translate(glm::mat4(1), {x, y, 0})).material = static_cast<std::uint32_t>(i);
         }
         scene.lights.push_back(directional({0, 0, -1}));
-        const renderer::Renderer renderer = render(scene, effectSettings());
+        const renderer::Offscreen renderer = render(scene, effectSettings());
         EXPECT_EQ(renderer.report().materials, materials);
         dispatches.push_back(renderer.report().scatterDispatches);
         dispatches.push_back(renderer.report().transmitDispatches);
@@ -208,7 +208,7 @@ TEST_F(Effect, CostDoesNotDependOnMaterialsOrLayers) {
 TEST_F(Effect, MaterialsCanBeReplaced) {
     scene::Scene scene = slab(2, layered(0));
     scene.lights.push_back(directional({0, 0, 1}, 3));
-    renderer::Renderer renderer = render(scene, effectSettings());
+    renderer::Offscreen renderer = render(scene, effectSettings());
     EXPECT_EQ(at(renderer.read(Output::Transmitted), 80, 45), 0);
     renderer.setMaterials({layered(0.5)});
     renderer.render(scene.cameras[0]);
@@ -219,7 +219,7 @@ TEST_F(Effect, MaterialsCanBeReplaced) {
 TEST_F(Effect, EveryPassIsTimed) {
     scene::Scene scene = slab(2, layered(0.5));
     scene.lights.push_back(directional({0, 0, 1}, 3));
-    const renderer::Renderer renderer = render(scene, effectSettings());
+    const renderer::Offscreen renderer = render(scene, effectSettings());
     const renderer::FrameReport& report = renderer.report();
     double total = 0;
     for (const renderer::PassTime& pass : report.passes) {
@@ -242,7 +242,7 @@ TEST_F(Effect, EveryPassIsTimed) {
 TEST_F(Effect, FrameCanBeTimedAsAWhole) {
     scene::Scene scene = slab(2, layered(0.5));
     scene.lights.push_back(directional({0, 0, 1}, 3));
-    renderer::Renderer renderer = render(scene, effectSettings());
+    renderer::Offscreen renderer = render(scene, effectSettings());
     const renderer::Pixels byPass = renderer.read(Output::Color);
     renderer.render(scene.cameras[0], renderer::Timing::Whole);
     EXPECT_TRUE(renderer.report().passes.empty());
@@ -258,7 +258,7 @@ TEST_F(Effect, CanBeRepeatedWithoutTimestampsInside) {
     renderer::RenderSettings settings = effectSettings();
     settings.effectRepetitions = 3;
     settings.copyFloor = true;
-    renderer::Renderer renderer = render(scene, settings);
+    renderer::Offscreen renderer = render(scene, settings);
     const renderer::Pixels once = renderer.read(Output::Scattered);
     renderer.renderEffect();
     const std::size_t passCount = renderer.report().passes.size();

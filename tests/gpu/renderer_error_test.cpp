@@ -61,7 +61,7 @@ TEST_F(Errors, TechniquesTooLargeForTheDeviceKeepNoOtherFromThePicture) {
     settings.width = 2000;
     settings.height = 1400;
     settings.scatter = true;
-    renderer::Renderer renderer = render(plane(), settings);
+    renderer::Offscreen renderer = render(plane(), settings);
     renderer::EffectSettings brute = settings;
     brute.technique = NACRE_TECHNIQUE_BRUTE;
     int refusals = 0;
@@ -134,13 +134,13 @@ TEST_F(Errors, DevicesThatAreNotThere) {
 }
 
 TEST_F(Errors, ReadingAThicknessThatNobodyAskedFor) {
-    const renderer::Renderer renderer = render(plane(), plainSettings());
+    const renderer::Offscreen renderer = render(plane(), plainSettings());
     EXPECT_THROW(renderer.read(renderer::Output::Thickness), renderer::RendererError);
     EXPECT_NO_THROW(renderer.read(renderer::Output::Transmitted));
 }
 
 TEST_F(Errors, ReadingBeforeRendering) {
-    const renderer::Renderer renderer(device(), plane(), plainSettings());
+    const renderer::Offscreen renderer(device(), plane(), plainSettings());
     EXPECT_THROW(renderer.read(renderer::Output::Color), renderer::RendererError);
 }
 

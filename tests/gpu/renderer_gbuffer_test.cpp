@@ -66,7 +66,7 @@ TEST_F(GBuffer, NothingIsInfinitelyFarAndShowsTheSurroundings) {
     add(scene, square(0.5f));
     scene.environment.intensity = 1;
     scene.environment.image = scene::FloatImage{8, 4, std::vector<float>(8 * 4 * 4, 0.25f)};
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     EXPECT_TRUE(std::isinf(at(renderer.read(Output::Depth), 2, 2)));
     EXPECT_EQ(at(renderer.read(Output::Normal), 2, 2, 2), 0);
     EXPECT_NEAR(at(renderer.read(Output::Radiance), 2, 2), 0.25f, 1e-3f);
@@ -141,7 +141,7 @@ TEST_F(GBuffer, MaterialIdsAreIndicesPlusOne) {
     for (const char* name : {"first", "second"}) {
         scene.materials.push_back(Material{.name = name, .description = {}, .layers = {{{1, 1, 1}, 1}}});
     }
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     const Pixels id = renderer.read(Output::Material);
     EXPECT_EQ(at(id, 60, 45), 2);
     EXPECT_EQ(at(id, 100, 45), 0);
@@ -166,7 +166,7 @@ TEST_F(GBuffer, PictureIsTheToneMappedRadiance) {
     EXPECT_NEAR(at(color, 80, 45), 0.4963f, 0.003f);
 
     settings.samples = 2;
-    const renderer::Renderer fine = render(scene, settings);
+    const renderer::Offscreen fine = render(scene, settings);
     EXPECT_EQ(fine.read(Output::Color).width, 160);
     EXPECT_EQ(fine.read(Output::Depth).width, 320);
     EXPECT_NEAR(at(fine.read(Output::Color), 80, 45), 0.4963f, 0.003f);

@@ -33,7 +33,7 @@ void expectOnPlane(const scene::Light& light) {
     scene::Scene scene = darkScene(2);
     add(scene, square(3));
     scene.lights.push_back(light);
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     const Pixels irradiance = renderer.read(Output::Irradiance);
     for (std::uint32_t y = 3; y < irradiance.height; y += 7) {
         for (std::uint32_t x = 3; x < irradiance.width; x += 7) {
@@ -67,7 +67,7 @@ TEST_F(Lighting, UnitsScaleDistances) {
     scene.metersPerUnit = 1e-3;
     add(scene, square(3000));
     scene.lights.push_back(point({0, 0, 500}, 1));
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     const Pixels irradiance = renderer.read(Output::Irradiance);
     const glm::vec3 position = 1e-3f * onPlane(scene.cameras[0], irradiance, 80, 45, 0);
     const float expected = expectedIrradiance(point({0, 0, 0.5f}, 1), position, {0, 0, 1});
@@ -79,7 +79,7 @@ TEST_F(Lighting, UniformSurroundingsGivePiTimesTheirRadiance) {
     add(scene, square(3));
     scene.environment.intensity = 2;
     scene.environment.image = scene::FloatImage{64, 32, std::vector<float>(64 * 32 * 4, 0.25f)};
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     const Pixels irradiance = renderer.read(Output::Irradiance);
     for (const std::uint32_t x : {10u, 80u, 150u}) {
         EXPECT_NEAR(at(irradiance, x, 45), pi * 0.5f, 0.01f * pi * 0.5f);
@@ -94,7 +94,7 @@ TEST_F(Lighting, WhiteMetalInUniformSurroundingsReflectsThem) {
     surface.roughness = 0.2f;
     scene.environment.image = scene::FloatImage{64, 32, std::vector<float>(64 * 32 * 4, 0.5f)};
     scene.environment.intensity = 1;
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     EXPECT_NEAR(at(renderer.read(Output::Specular), 80, 45), 0.5f, 0.01f);
     EXPECT_EQ(at(renderer.read(Output::Albedo), 80, 45), 0);
 }
@@ -107,7 +107,7 @@ void expectShadow(const scene::Light& light) {
     scene.lights.push_back(light);
     scene.cameras[0].position = {0, -1.5f, 1.5f};
     scene.cameras[0].target = {0, 0, 0};
-    const renderer::Renderer renderer = render(scene, plainSettings());
+    const renderer::Offscreen renderer = render(scene, plainSettings());
     const Pixels irradiance = renderer.read(Output::Irradiance);
     // The camera looks at the origin, which the small square keeps dark; it does not hide it.
     EXPECT_EQ(at(irradiance, 80, 45), 0);
@@ -157,7 +157,7 @@ void expectNoAcne(const scene::Light& light) {
     scene.lights.push_back(light);
     renderer::RenderSettings settings = plainSettings();
     settings.shadowMapSize = 1024;
-    const renderer::Renderer renderer = render(scene, settings);
+    const renderer::Offscreen renderer = render(scene, settings);
     const Pixels irradiance = renderer.read(Output::Irradiance);
     const Pixels depth = renderer.read(Output::Depth);
     const Pixels normal = renderer.read(Output::Normal);

@@ -55,7 +55,7 @@ void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const
     settings.shadowMapSize = 512;
     settings.transmit = false;
     settings.technique = NACRE_TECHNIQUE_BRUTE;
-    renderer::Renderer renderer(device(), scene, settings);
+    renderer::Offscreen renderer(device(), scene, settings);
     renderer.render(camera);
     const Pixels reference = renderer.read(Output::Scattered);
     const Pixels material = renderer.read(Output::Material);

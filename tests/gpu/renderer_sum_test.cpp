@@ -52,7 +52,7 @@ scene::Camera turned(scene::Camera camera, double degrees) {
     return camera;
 }
 
-void setEffect(renderer::Renderer& renderer, bool scatter, bool transmit) {
+void setEffect(renderer::Offscreen& renderer, bool scatter, bool transmit) {
     renderer::EffectSettings settings;
     settings.scatter = scatter;
     settings.transmit = transmit;
@@ -60,7 +60,7 @@ void setEffect(renderer::Renderer& renderer, bool scatter, bool transmit) {
 }
 
 /// Radiance over the pixels with a subsurface material, times pi.
-Energy energy(renderer::Renderer& renderer, const scene::Camera& camera) {
+Energy energy(renderer::Offscreen& renderer, const scene::Camera& camera) {
     renderer.render(camera);
     const Pixels radiance = renderer.read(Output::Radiance);
     const Pixels id = renderer.read(Output::Material);
@@ -82,7 +82,7 @@ double largestRmsRadius(const Material& material) {
 /// it would be without meaning from behind, where that is next to nothing.)
 void expectSameEnergy(scene::Scene scene, const std::string& what) {
     scene.lights = {directional({0, 0, -1})};
-    renderer::Renderer renderer(device(), scene, sumSettings());
+    renderer::Offscreen renderer(device(), scene, sumSettings());
     Energy front{};
     for (const double degrees : {0.0, 90.0, 180.0}) {
         const scene::Camera camera = turned(scene.cameras[0], degrees);
@@ -124,7 +124,7 @@ TEST_F(Sum, HeadsKeepTheirLight) {
         expectSameEnergy(scene, name + std::string(" head"));
         setFurnace(scene);
         scene.lights.clear();
-        renderer::Renderer renderer(device(), scene, sumSettings());
+        renderer::Offscreen renderer(device(), scene, sumSettings());
         const Energy on = energy(renderer, scene.cameras[0]);
         setEffect(renderer, false, false);
         const Energy off = energy(renderer, scene.cameras[0]);
@@ -138,7 +138,7 @@ TEST_F(Sum, HeadsKeepTheirLight) {
 
 /// But for what ambient occlusion finds at silhouettes, which is in the irradiance with and without the effect.
 void expectWhite(const scene::Scene& scene, const std::string& what) {
-    const renderer::Renderer renderer = render(scene, sumSettings());
+    const renderer::Offscreen renderer = render(scene, sumSettings());
     const Pixels radiance = renderer.read(Output::Radiance);
     const Pixels specular = renderer.read(Output::Specular); // at grazing angles every surface reflects
     const Pixels irradiance = renderer.read(Output::Irradiance);
@@ -188,7 +188,7 @@ TEST_F(Sum, ASheetUnderTheSkyIsAsBrightAsWithoutTransmit) {
     scene.surfaces[0].baseColor = {0.22f, 0.42f, 0.08f, 1};
     setFurnace(scene);
     scene.lights = {directional({0, 0, -1}, 0)};
-    renderer::Renderer renderer(device(), scene, sumSettings());
+    renderer::Offscreen renderer(device(), scene, sumSettings());
     const Energy on = energy(renderer, scene.cameras[0]);
     setEffect(renderer, true, false);
     const Energy off = energy(renderer, scene.cameras[0]);
@@ -299,7 +299,7 @@ private:
     }
 
     scene::Scene scene_;
-    renderer::Renderer renderer_;
+    renderer::Offscreen renderer_;
     std::vector<BallTable> tables_;
 };
 

@@ -1,7 +1,7 @@
 // Small scenes whose light is known in closed form, and one device for all renderer tests of a program.
 #pragma once
 
-#include "renderer/renderer.hpp"
+#include "renderer/offscreen.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -146,8 +146,8 @@ inline float at(const renderer::Pixels& pixels, std::uint32_t x, std::uint32_t y
 }
 
 /// Renders from the first camera.
-inline renderer::Renderer render(const scene::Scene& scene, const renderer::RenderSettings& settings) {
-    renderer::Renderer result(device(), scene, settings);
+inline renderer::Offscreen render(const scene::Scene& scene, const renderer::RenderSettings& settings) {
+    renderer::Offscreen result(device(), scene, settings);
     result.render(scene.cameras.at(0));
     return result;
 }

@@ -1,0 +1,34 @@
+// Pipelines that draw triangles. Internal to the renderer.
+#pragma once
+
+#include "renderer/vulkan/open_device.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nacre::renderer {
+
+/// A pipeline for dynamic rendering: triangles, reversed depth, no blending. Viewport, scissor, cull mode and front
+/// face are dynamic.
+struct GraphicsPipelineInfo {
+    std::string name;
+    std::span<const std::uint32_t> vertexShader;
+    std::span<const std::uint32_t> fragmentShader;
+    std::vector<vk::VertexInputBindingDescription> vertexBindings;
+    std::vector<vk::VertexInputAttributeDescription> vertexAttributes;
+    std::vector<vk::Format> colorFormats;
+    bool alphaMask = false; ///< specialisation constant 0 of the fragment shader
+    vk::PipelineLayout layout;
+};
+
+vk::raii::Pipeline makeGraphicsPipeline(const Gpu& gpu, const GraphicsPipelineInfo& info);
+
+/// The layout of pipelines whose shaders read sets of these layouts and `pushBytes` bytes of push constants.
+vk::raii::PipelineLayout makeGraphicsLayout(const Gpu& gpu, std::span<const vk::DescriptorSetLayout> setLayouts,
+                                            std::uint32_t pushBytes);
+
+/// Viewport and scissor over the whole attachment.
+void setWholeViewport(const vk::raii::CommandBuffer& commandBuffer, vk::Extent2D extent);
+
+} // namespace nacre::renderer
