@@ -10,8 +10,8 @@ cmake --build --preset release --target nacre_app
 nacre=build/release/app/nacre
 mkdir -p out
 for light in front back; do
-    "$nacre" render --light "$light" --output "out/gallery-$light.png"
-    "$nacre" render --light "$light" --no-scatter --no-transmit --output "out/gallery-$light-off.png"
+    "$nacre" render --samples 2 --light "$light" --output "out/gallery-$light.png"
+    "$nacre" render --samples 2 --light "$light" --no-scatter --no-transmit --output "out/gallery-$light-off.png"
 done
 
 cat <<END
