@@ -4,7 +4,7 @@
 #include "renderer/frame_report.hpp"
 #include "renderer/frame_settings.hpp"
 #include "renderer/passes/ambient_occlusion.hpp"
-#include "renderer/passes/compose.hpp"
+#include "renderer/passes/compose_picture.hpp"
 #include "renderer/passes/copy_floor.hpp"
 #include "renderer/passes/lighting.hpp"
 #include "renderer/passes/subsurface.hpp"

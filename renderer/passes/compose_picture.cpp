@@ -1,6 +1,6 @@
-#include "renderer/passes/compose.hpp"
+#include "renderer/passes/compose_picture.hpp"
 
-#include "compose_comp.spv.h"
+#include "compose_picture_comp.spv.h"
 #include "tone_map_comp.spv.h"
 
 namespace nacre::renderer {
@@ -36,7 +36,7 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent, std::size_
                                  vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
     const auto pixels = [&](Image& image) { return sampled(image, inputs.nearest); };
     Environment& environment = inputs.environment;
-    radiancePass_ = ComputePass(gpu, "compose", compose_comp_spv,
+    radiancePass_ = ComputePass(gpu, "compose", compose_picture_comp_spv,
                                 {uniform(gbuffer.view()), uniform(environment.constants()), storage(transmissions_),
                                  pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
                                  pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
