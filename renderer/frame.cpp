@@ -4,6 +4,7 @@
 #include "renderer/picture_passes.hpp"
 #include "renderer/vulkan/debug_label.hpp"
 #include "renderer/vulkan/memory_meter.hpp"
+#include "renderer/vulkan/reloadable_pipeline.hpp"
 #include "renderer/vulkan/translate_errors.hpp"
 
 #include <algorithm>
@@ -383,6 +384,16 @@ bool Frame::isPrepared(const EffectSettings& settings) const {
 
 void Frame::prepare(const EffectSettings& settings) {
     translateErrors([&] { implementation_->subsurface.prepare(settings); });
+}
+
+void Frame::reloadShaders() {
+    translateErrors([&] {
+        if (!shadersMayChange()) {
+            throw RendererError("shaders are part of this program; build with the preset developer to reload them");
+        }
+        implementation_->subsurface.reloadShaders();
+        reloadPipelines(implementation_->gpu);
+    });
 }
 
 void Frame::resize(std::uint32_t width, std::uint32_t height) {

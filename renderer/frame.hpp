@@ -88,6 +88,12 @@ public:
     /// failure the old size stays.
     void resize(std::uint32_t width, std::uint32_t height);
 
+    /// In a developer build (CMake option NACRE_DEVELOPER): compiles the shaders that have changed and makes all
+    /// pipelines anew, but for the environment's, which were used once. The device must have finished with all frames,
+    /// which have to be prepared again where thesisBakedKernel is set. Throws RendererError with the compiler's message
+    /// and keeps the pipelines; in other builds it always throws.
+    void reloadShaders();
+
     /// Records frame `frame`. On failure the command buffer must be thrown away.
     void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, const FrameView& view,
                 Timing timing = Timing::Passes);

@@ -69,4 +69,9 @@ void Offscreen::setMaterials(const std::vector<Material>& materials) {
     implementation_->frame.prepare(implementation_->frame.settings());
 }
 
+void Offscreen::reloadShaders() {
+    implementation_->frame.reloadShaders();
+    implementation_->frame.prepare(implementation_->frame.settings());
+}
+
 } // namespace nacre::renderer

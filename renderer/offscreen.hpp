@@ -55,6 +55,8 @@ public:
     void setEffect(const EffectSettings& settings);
     /// Replaces the scene's subsurface materials (same count) without rebuilding anything else.
     void setMaterials(const std::vector<Material>& materials);
+    /// Frame::reloadShaders, and prepares what that asks for.
+    void reloadShaders();
 
 private:
     struct Implementation;

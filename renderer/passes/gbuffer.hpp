@@ -3,6 +3,7 @@
 
 #include "renderer/camera.hpp"
 #include "renderer/passes/gpu_scene.hpp"
+#include "renderer/vulkan/reloadable_pipeline.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,8 +45,8 @@ private:
     FrameBuffer view_;
     DescriptorSets sets_;
     vk::raii::PipelineLayout layout_ = nullptr;
-    vk::raii::Pipeline opaque_ = nullptr;
-    vk::raii::Pipeline masked_ = nullptr;
+    ReloadablePipeline opaque_;
+    ReloadablePipeline masked_;
 };
 
 } // namespace nacre::renderer

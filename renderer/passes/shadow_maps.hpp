@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/passes/gpu_scene.hpp"
+#include "renderer/vulkan/reloadable_pipeline.hpp"
 
 #include <optional>
 
@@ -40,8 +41,8 @@ private:
     std::uint64_t drawnCasters_ = 0;                        ///< GpuScene::casterVersion of all of them
     DescriptorSets sets_;
     vk::raii::PipelineLayout layout_ = nullptr;
-    vk::raii::Pipeline opaque_ = nullptr;
-    vk::raii::Pipeline masked_ = nullptr;
+    ReloadablePipeline opaque_;
+    ReloadablePipeline masked_;
 };
 
 } // namespace nacre::renderer

@@ -2,6 +2,7 @@
 
 #include "renderer/effect_arguments.hpp"
 #include "renderer/vulkan/debug_label.hpp"
+#include "renderer/vulkan/reloadable_pipeline.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -225,6 +226,11 @@ void Subsurface::resize(vk::Extent2D extent) {
     message_->clear();
     check(nacreResize(context_.get(), extent));
     info_.extent = extent;
+}
+
+void Subsurface::reloadShaders() {
+    check(reloadEffectShaders(context_.get()));
+    bakedRadius_.reset();
 }
 
 NacreCost Subsurface::scatterCost(NacreTechnique technique) const {

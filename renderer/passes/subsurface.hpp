@@ -74,6 +74,9 @@ public:
     void setMaterials(const std::vector<Material>& materials);
     /// The device must have finished with all frames.
     void resize(vk::Extent2D extent);
+    /// Compiles all shaders that have changed, and makes the effect's pipelines anew; the device must have finished
+    /// with all frames. Only in a developer build.
+    void reloadShaders();
     NacreCost scatterCost(NacreTechnique technique) const;
     NacreCost transmitCost() const;
 

@@ -4,7 +4,7 @@
 
 namespace nacre::renderer {
 
-ComputePass::ComputePass(Gpu& gpu, const std::string& name, std::span<const std::uint32_t> spirv,
+ComputePass::ComputePass(Gpu& gpu, const std::string& name, const EmbeddedShader& shader,
                          const std::vector<Binding>& bindings, std::uint32_t pushBytes)
     : uses_(imageUses(bindings)), sets_(gpu, bindings, vk::ShaderStageFlagBits::eCompute) {
     const vk::PushConstantRange push{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = pushBytes};
@@ -13,13 +13,16 @@ ComputePass::ComputePass(Gpu& gpu, const std::string& name, std::span<const std:
                                                     .pSetLayouts = &setLayout,
                                                     .pushConstantRangeCount = pushBytes ? 1u : 0u,
                                                     .pPushConstantRanges = &push});
-    const vk::raii::ShaderModule shader(gpu.device, {.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
-    pipeline_ = vk::raii::Pipeline(
-        gpu.device, gpu.pipelineCache,
-        vk::ComputePipelineCreateInfo{
-            .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
-            .layout = *layout_});
-    gpu.name(pipeline_, name);
+    pipeline_ = ReloadablePipeline(gpu, [&gpu, name, shader, layout = *layout_] {
+        const vk::raii::ShaderModule module = makeShaderModule(gpu, shader);
+        vk::raii::Pipeline pipeline(
+            gpu.device, gpu.pipelineCache,
+            vk::ComputePipelineCreateInfo{
+                .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"},
+                .layout = layout});
+        gpu.name(pipeline, name);
+        return pipeline;
+    });
 }
 
 void ComputePass::record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, vk::Extent2D extent,

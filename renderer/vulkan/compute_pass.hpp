@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/vulkan/descriptor_sets.hpp"
+#include "renderer/vulkan/reloadable_pipeline.hpp"
 
 #include <span>
 #include <string>
@@ -14,8 +15,8 @@ class ComputePass {
 public:
     ComputePass() = default;
     /// `bindings[i]` is binding i of set 0; the shader pushes `pushBytes` bytes and has groupSize² invocations a group.
-    ComputePass(Gpu& gpu, const std::string& name, std::span<const std::uint32_t> spirv,
-                const std::vector<Binding>& bindings, std::uint32_t pushBytes = 0);
+    ComputePass(Gpu& gpu, const std::string& name, const EmbeddedShader& shader, const std::vector<Binding>& bindings,
+                std::uint32_t pushBytes = 0);
 
     /// Covers `extent` pixels with `layers` groups in depth. `frame` chooses the copies of FrameBuffers.
     void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, vk::Extent2D extent,
@@ -25,7 +26,7 @@ private:
     std::vector<ImageUse> uses_;
     DescriptorSets sets_;
     vk::raii::PipelineLayout layout_ = nullptr;
-    vk::raii::Pipeline pipeline_ = nullptr;
+    ReloadablePipeline pipeline_;
 };
 
 /// The bytes of a structure of constants.

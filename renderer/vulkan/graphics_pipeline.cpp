@@ -5,15 +5,9 @@
 namespace nacre::renderer {
 namespace {
 
-vk::raii::ShaderModule makeShader(const Gpu& gpu, std::span<const std::uint32_t> spirv) {
-    return {gpu.device, {.codeSize = spirv.size_bytes(), .pCode = spirv.data()}};
-}
-
-} // namespace
-
-vk::raii::Pipeline makeGraphicsPipeline(const Gpu& gpu, const GraphicsPipelineInfo& info) {
-    const vk::raii::ShaderModule vertexShader = makeShader(gpu, info.vertexShader);
-    const vk::raii::ShaderModule fragmentShader = makeShader(gpu, info.fragmentShader);
+vk::raii::Pipeline makePipeline(const Gpu& gpu, const GraphicsPipelineInfo& info) {
+    const vk::raii::ShaderModule vertexShader = makeShaderModule(gpu, info.vertexShader);
+    const vk::raii::ShaderModule fragmentShader = makeShaderModule(gpu, info.fragmentShader);
     const VkBool32 alphaMask = info.alphaMask;
     const vk::SpecializationMapEntry entry{.constantID = 0, .offset = 0, .size = sizeof alphaMask};
     const vk::SpecializationInfo specialization{
@@ -63,6 +57,12 @@ vk::raii::Pipeline makeGraphicsPipeline(const Gpu& gpu, const GraphicsPipelineIn
                                                                .layout = info.layout});
     gpu.name(pipeline, info.name);
     return pipeline;
+}
+
+} // namespace
+
+ReloadablePipeline makeGraphicsPipeline(Gpu& gpu, const GraphicsPipelineInfo& info) {
+    return {gpu, [&gpu, info] { return makePipeline(gpu, info); }};
 }
 
 vk::raii::PipelineLayout makeGraphicsLayout(const Gpu& gpu, std::span<const vk::DescriptorSetLayout> setLayouts,

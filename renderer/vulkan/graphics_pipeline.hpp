@@ -1,7 +1,7 @@
 // Pipelines that draw triangles. Internal to the renderer.
 #pragma once
 
-#include "renderer/vulkan/open_device.hpp"
+#include "renderer/vulkan/reloadable_pipeline.hpp"
 
 #include <span>
 #include <string>
@@ -13,8 +13,8 @@ namespace nacre::renderer {
 /// face are dynamic.
 struct GraphicsPipelineInfo {
     std::string name;
-    std::span<const std::uint32_t> vertexShader;
-    std::span<const std::uint32_t> fragmentShader;
+    EmbeddedShader vertexShader;
+    EmbeddedShader fragmentShader;
     std::vector<vk::VertexInputBindingDescription> vertexBindings;
     std::vector<vk::VertexInputAttributeDescription> vertexAttributes;
     std::vector<vk::Format> colorFormats;
@@ -22,7 +22,7 @@ struct GraphicsPipelineInfo {
     vk::PipelineLayout layout;
 };
 
-vk::raii::Pipeline makeGraphicsPipeline(const Gpu& gpu, const GraphicsPipelineInfo& info);
+ReloadablePipeline makeGraphicsPipeline(Gpu& gpu, const GraphicsPipelineInfo& info);
 
 /// The layout of pipelines whose shaders read sets of these layouts and `pushBytes` bytes of push constants.
 vk::raii::PipelineLayout makeGraphicsLayout(const Gpu& gpu, std::span<const vk::DescriptorSetLayout> setLayouts,

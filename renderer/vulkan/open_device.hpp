@@ -6,10 +6,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace nacre::renderer {
+
+struct PipelineRecipe;
 
 /// An open device, its one queue (graphics, compute, transfer) and what was asked of it.
 struct Device::Implementation {
@@ -30,7 +33,8 @@ struct Device::Implementation {
     vk::raii::Device device = nullptr;
     vk::raii::Queue queue = nullptr;
     vk::raii::CommandPool commandPool = nullptr;
-    vk::raii::PipelineCache pipelineCache = nullptr; ///< of everything that is compiled, so that nothing is twice
+    vk::raii::PipelineCache pipelineCache = nullptr;      ///< of everything that is compiled, so that nothing is twice
+    std::vector<std::weak_ptr<PipelineRecipe>> pipelines; ///< renderer/vulkan/reloadable_pipeline.hpp
     /// Bytes allocated through Memory (renderer/vulkan/resources.hpp), per heap.
     std::vector<std::uint64_t> allocatedBytes;
 
