@@ -145,9 +145,25 @@ void Subsurface::beginFrame(std::uint32_t frame) {
     check(nacreBeginFrame(context_.get(), frame));
 }
 
-void Subsurface::createContext(std::uint32_t techniques) {
-    NacreContextInfo contextInfo = effectContextInfo(gpu_);
-    contextInfo.pipelineCache = *gpu_.pipelineCache;
+void Subsurface::record(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs,
+                        const EffectSettings& settings) {
+    GBuffer& gbuffer = inputs.gbuffer;
+    std::vector<ImageUse> uses{{inputs.irradiance, usage::computeRead},
+                               {gbuffer.image(GBuffer::Depth), usage::computeRead},
+                               {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
+                               {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
+                               {gbuffer.image(GBuffer::Albedo), usage::computeRead},
+                               {gbuffer.image(GBuffer::Thickness), usage::computeRead},
+                               {inputs.shadowMaps, usage::computeRead}};
+    inputs.outputs.forEachImage([&](Image& image) { uses.push_back({image, usage::computeWrite}); });
+    nacre::renderer::prepare(commandBuffer, uses);
+    if (settings.scatter) {
+        const Label label(gpu_, commandBuffer, "scatter");
+        scatter(commandBuffer, inputs, settings);
+    }
+    if (settings.transmit) {
+        const Label label(gpu_, commandBuffer, "transmit");
+        transmit(commandBuffer, inputs, settings);
     }
 }
 

@@ -1,7 +1,7 @@
 // Pipelines that can be made anew from shaders that have changed, as a developer build does. Internal to the renderer.
 #pragma once
 
-#include "embedded_shader.hpp"
+#include "cmake/embedded_shader.hpp"
 #include "nacre/nacre.h"
 #include "renderer/vulkan/open_device.hpp"
 
