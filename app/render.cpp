@@ -4,11 +4,10 @@
 #include "app/render_options.hpp"
 #include "app/render_scene.hpp"
 #include "app/report.hpp"
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -16,36 +15,12 @@ namespace nacre::app {
 
 namespace {
 
-/// The mean of every pixel's samples x samples values.
-renderer::Pixels resolve(const renderer::Pixels& source, std::uint32_t samples) {
-    const std::size_t channels = source.channels.size();
-    renderer::Pixels result{source.width / samples, source.height / samples, source.channels, {}};
-    result.values.resize(std::size_t{result.width} * result.height * channels);
-    const float share = 1 / static_cast<float>(samples * samples);
-    for (std::size_t i = 0; i < source.values.size(); ++i) {
-        const std::size_t x = i / channels % source.width / samples;
-        const std::size_t y = i / channels / source.width / samples;
-        result.values[(y * result.width + x) * channels + i % channels] += share * source.values[i];
-    }
-    return result;
-}
-
 void writePicture(const std::filesystem::path& file, const renderer::Offscreen& renderer, std::uint32_t samples) {
     if (file.extension() == ".exr") {
-        const renderer::Pixels pixels = resolve(renderer.read(renderer::Output::Radiance), samples);
-        scene::writeExr(file, pixels.width, pixels.height, pixels.channels, pixels.values);
-        return;
+        writeExr(file, reduced(renderer.read(renderer::Output::Radiance), samples));
+    } else {
+        writePng(file, renderer.read(renderer::Output::Color));
     }
-    const renderer::Pixels pixels = renderer.read(renderer::Output::Color);
-    std::vector<std::uint8_t> bytes(pixels.values.size());
-    std::ranges::transform(pixels.values, bytes.begin(),
-                           [](float value) { return static_cast<std::uint8_t>(std::lround(value * 255)); });
-    scene::writePng(file, pixels.width, pixels.height, static_cast<int>(pixels.channels.size()), bytes);
-}
-
-void writeAov(const AovOutput& aov, const renderer::Offscreen& renderer) {
-    const renderer::Pixels pixels = renderer.read(aov.output);
-    scene::writeExr(aov.file, pixels.width, pixels.height, pixels.channels, pixels.values);
 }
 
 void checkOutputs(const RenderOptions& options) {
@@ -89,7 +64,7 @@ void render(const RenderOptions& options) {
         renderer.render(camera);
         writePicture(options.output, renderer, options.settings.samples);
         for (const AovOutput& aov : options.aovs) {
-            writeAov(aov, renderer);
+            writeExr(aov.file, renderer.read(aov.output));
         }
         frame = renderer.report();
     }

@@ -1,6 +1,7 @@
 // Draws single pictures without a window: submits a frame, waits for it and reads its images back.
 #pragma once
 
+#include "image/image.hpp"
 #include "renderer/frame_report.hpp"
 #include "renderer/frame_settings.hpp"
 #include "renderer/graphics_device.hpp"
@@ -27,13 +28,8 @@ enum class Output {
     Radiance     ///< R G B, the picture in linear light, before exposure and tone curve
 };
 
-/// Pixels of one output: `channels` floats each, row 0 at the top.
-struct Pixels {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<std::string> channels;
-    std::vector<float> values;
-};
+/// One output: linear, but for the sRGB encoded Color.
+using Pixels = nacre::Image; // not the GPU's, renderer::Image
 
 /// Draws one scene. Throws RendererError (renderer/graphics_device.hpp) with one sentence.
 class Offscreen {

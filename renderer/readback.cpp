@@ -117,8 +117,11 @@ Pixels readThickness(Gpu& gpu, const FrameImages& images, const EffectUse& use) 
 
 Pixels readOutput(Gpu& gpu, Output output, const FrameImages& images, const EffectUse& use) {
     switch (output) {
-    case Output::Color:
-        return read(gpu, images.color, rgb);
+    case Output::Color: {
+        Pixels pixels = read(gpu, images.color, rgb);
+        pixels.encoding = Encoding::Srgb;
+        return pixels;
+    }
     case Output::Radiance:
         return read(gpu, images.radiance, rgb);
     case Output::Irradiance:

@@ -1,6 +1,7 @@
 #include "scene/assimp_material.hpp"
 
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
+#include "scene/texture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "scene/gltf_material.hpp"
 
-#include "scene/image.hpp"
+#include "scene/texture.hpp"
 
 #include <algorithm>
 #include <array>

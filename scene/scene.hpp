@@ -2,6 +2,7 @@
 // Right-handed, +Y up, metres after `metersPerUnit`; colours linear Rec.709.
 #pragma once
 
+#include "image/image.hpp"
 #include "nacre/files.hpp"
 #include "nacre/material.hpp"
 
@@ -45,13 +46,6 @@ struct Texture {
     bool srgb = false;
     bool repeat = true;
     std::vector<std::uint8_t> pixels; ///< width·height·4 bytes
-};
-
-/// 32-bit float RGBA pixels, row 0 at the top.
-struct FloatImage {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<float> pixels; ///< width·height·4 floats
 };
 
 /// How a surface looks apart from its subsurface material.
@@ -116,7 +110,7 @@ struct Camera {
 
 /// Image-based light: an equirectangular image, or the built-in sky when there is none.
 struct Environment {
-    std::optional<FloatImage> image;
+    std::optional<Image> image; ///< linear, 4 channels RGBA, alpha unused
     float intensity = 1;
     float rotation = 0; ///< [rad] about +Y
     glm::vec3 zenith{0.25f, 0.32f, 0.45f};

@@ -1,8 +1,8 @@
 #include "scene/scene_file.hpp"
 
+#include "image/image_file.hpp"
 #include "scene/file.hpp"
 #include "scene/gallery.hpp"
-#include "scene/image.hpp"
 #include "scene/import.hpp"
 #include "scene/scene_file_material.hpp"
 #include "scene/scene_file_object.hpp"
@@ -336,9 +336,9 @@ private:
         if (image.empty() || !std::filesystem::exists(target)) {
             object.refuse("image", "an existing .hdr or .exr file");
         }
-        environment.image = readFloatImage(target);
+        environment.image = readRadiance(target);
         const auto isRadiance = [](float value) { return value >= 0 && std::isfinite(value); };
-        if (!std::ranges::all_of(environment.image->pixels, isRadiance)) {
+        if (!std::ranges::all_of(environment.image->values, isRadiance)) {
             object.refuse("image", "an image without negative, infinite and NaN pixels");
         }
     }

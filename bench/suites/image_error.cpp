@@ -8,27 +8,22 @@ namespace nacre::bench {
 namespace {
 
 constexpr double peakShare = 0.999;
-constexpr double relMseEpsilon = 0.01;
 
 float finite(float value) {
     return std::isfinite(value) ? value : 0;
 }
 
 void check(const IdentifiedPicture& picture) {
-    const std::size_t count = std::size_t{picture.width} * picture.height;
-    if (count == 0 || picture.pixels.size() != 3 * count || picture.materialIds.size() != count) {
+    const std::size_t count = picture.image.pixelCount();
+    if (count == 0 || picture.image.values.size() != 3 * count || picture.materialIds.size() != count) {
         throw std::invalid_argument("a picture's pixels and material ids do not fill its size");
     }
 }
 
-std::vector<double> valuesWithMaterial(const IdentifiedPicture& picture) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-        if (picture.materialIds[i / 3] != 0) {
-            values.push_back(finite(picture.pixels[i]));
-        }
-    }
-    return values;
+Mask maskOf(const std::vector<float>& materialIds) {
+    Mask mask(materialIds.size());
+    std::ranges::transform(materialIds, mask.begin(), [](float id) { return static_cast<std::uint8_t>(id != 0); });
+    return mask;
 }
 
 // Two neighbours on one axis, and how far the position is from the first to the second.
@@ -51,11 +46,11 @@ void interpolate(const IdentifiedPicture& picture, const Neighbours& x, const Ne
     float sum[3] = {0, 0, 0};
     float total = 0;
     const auto add = [&](std::uint32_t column, std::uint32_t row, float weight) {
-        const std::size_t index = std::size_t{row} * picture.width + column;
+        const std::size_t index = std::size_t{row} * picture.image.width + column;
         if (picture.materialIds[index] == id) {
             total += weight;
             for (std::size_t channel = 0; channel < 3; ++channel) {
-                sum[channel] += weight * finite(picture.pixels[3 * index + channel]);
+                sum[channel] += weight * finite(picture.image.values[3 * index + channel]);
             }
         }
     };
@@ -65,7 +60,7 @@ void interpolate(const IdentifiedPicture& picture, const Neighbours& x, const Ne
     add(x.second, y.second, x.fraction * y.fraction);
     const std::uint32_t column = x.fraction < 0.5f ? x.first : x.second;
     const std::uint32_t row = y.fraction < 0.5f ? y.first : y.second;
-    const float* nearest = &picture.pixels[3 * (std::size_t{row} * picture.width + column)];
+    const float* nearest = &picture.image.values[3 * (std::size_t{row} * picture.image.width + column)];
     for (std::size_t channel = 0; channel < 3; ++channel) {
         result[channel] = total > 0 ? sum[channel] / total : nearest[channel];
     }
@@ -74,13 +69,13 @@ void interpolate(const IdentifiedPicture& picture, const Neighbours& x, const Ne
 } // namespace
 
 std::vector<float> enlarge(const IdentifiedPicture& picture, const IdentifiedPicture& guide) {
-    std::vector<float> result(guide.pixels.size());
-    for (std::uint32_t row = 0; row < guide.height; ++row) {
-        const Neighbours y = neighboursOf(row, guide.height, picture.height);
-        for (std::uint32_t column = 0; column < guide.width; ++column) {
-            const std::size_t index = std::size_t{row} * guide.width + column;
-            interpolate(picture, neighboursOf(column, guide.width, picture.width), y, guide.materialIds[index],
-                        &result[3 * index]);
+    std::vector<float> result(guide.image.values.size());
+    for (std::uint32_t row = 0; row < guide.image.height; ++row) {
+        const Neighbours y = neighboursOf(row, guide.image.height, picture.image.height);
+        for (std::uint32_t column = 0; column < guide.image.width; ++column) {
+            const std::size_t index = std::size_t{row} * guide.image.width + column;
+            interpolate(picture, neighboursOf(column, guide.image.width, picture.image.width), y,
+                        guide.materialIds[index], &result[3 * index]);
         }
     }
     return result;
@@ -88,41 +83,24 @@ std::vector<float> enlarge(const IdentifiedPicture& picture, const IdentifiedPic
 
 ReferencePicture::ReferencePicture(IdentifiedPicture picture) : reference_(std::move(picture)) {
     check(reference_);
-    std::vector<double> values = valuesWithMaterial(reference_);
-    if (values.empty()) {
+    std::ranges::transform(reference_.image.values, reference_.image.values.begin(), finite);
+    mask_ = maskOf(reference_.materialIds);
+    if (countedPixels(reference_.image, mask_) == 0) {
         throw std::invalid_argument("no pixel of the picture has a subsurface material");
     }
-    const auto peak = values.begin() + std::lround(peakShare * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), peak, values.end());
-    peak_ = *peak;
+    peak_ = quantile(reference_.image, peakShare, mask_);
 }
 
 ImageError ReferencePicture::compare(const IdentifiedPicture& picture) const {
     check(picture);
-    const bool sameSize = picture.width == reference_.width && picture.height == reference_.height;
-    const std::vector<float> enlarged = sameSize ? std::vector<float>() : enlarge(picture, reference_);
-    const std::vector<float>& pixels = sameSize ? picture.pixels : enlarged;
-    double count = 0;
-    double squares = 0;
-    double relativeSquares = 0;
-    double pictureSum = 0;
-    double referenceSum = 0;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        if (reference_.materialIds[i / 3] == 0) {
-            continue;
-        }
-        const double x = static_cast<double>(finite(pixels[i]));
-        const double r = static_cast<double>(finite(reference_.pixels[i]));
-        squares += (x - r) * (x - r);
-        relativeSquares += (x - r) * (x - r) / (r * r + relMseEpsilon);
-        pictureSum += x;
-        referenceSum += r;
-        ++count;
-    }
-    const double psnr = 10 * std::log10(peak_ * peak_ * count / squares);
-    return {.psnr = squares > 0 ? std::clamp(psnr, 0.0, maxPsnr) : maxPsnr,
-            .relMse = relativeSquares / count,
-            .energyRatio = referenceSum > 0 ? pictureSum / referenceSum : 1};
+    const bool sameSize =
+        picture.image.width == reference_.image.width && picture.image.height == reference_.image.height;
+    Image image = reference_.image;
+    image.values = sameSize ? picture.image.values : enlarge(picture, reference_);
+    std::ranges::transform(image.values, image.values.begin(), finite);
+    const ErrorSums sums = errors(image, reference_.image, mask_);
+    return {
+        .psnr = std::clamp(sums.psnr(peak_), 0.0, maxPsnr), .relMse = sums.relMse(), .energyRatio = sums.energyRatio()};
 }
 
 } // namespace nacre::bench

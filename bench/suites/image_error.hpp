@@ -2,16 +2,15 @@
 #pragma once
 
 #include "bench/results/results.hpp"
+#include "image/metrics.hpp"
 
 #include <span>
 
 namespace nacre::bench {
 
-/// A picture of RGB pixels (three floats each) and their material ids (one float each).
+/// A picture with channels R, G and B, and the material ids of its pixels.
 struct IdentifiedPicture {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::vector<float> pixels;
+    Image image;
     std::vector<float> materialIds;
 };
 
@@ -27,11 +26,13 @@ public:
 
 private:
     IdentifiedPicture reference_;
+    Mask mask_;
     double peak_ = 0;
 };
 
-/// The picture at the size and with the material ids of `guide`: bilinear between those of the four nearest pixels that
-/// have the same id, of which those that are not finite count as black; without such a neighbour the nearest pixel.
+/// The picture's values at the size and with the material ids of `guide`: bilinear between those of the four nearest
+/// pixels that have the same id, of which those that are not finite count as black; without such a neighbour the
+/// nearest pixel.
 std::vector<float> enlarge(const IdentifiedPicture& picture, const IdentifiedPicture& guide);
 
 } // namespace nacre::bench

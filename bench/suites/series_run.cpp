@@ -221,9 +221,7 @@ private:
     IdentifiedPicture picture(const Configuration& configuration) {
         stage_.select(configuration);
         stage_.renderFrame();
-        renderer::Pixels scattered = stage_.read(renderer::Output::Scattered);
-        return {scattered.width, scattered.height, std::move(scattered.values),
-                stage_.read(renderer::Output::Material).values};
+        return {stage_.read(renderer::Output::Scattered), stage_.read(renderer::Output::Material).values};
     }
 
     const Series& series_;

@@ -4,7 +4,7 @@
 #include "bench/results/series_fits.hpp"
 #include "bench/suites/configuration_stage.hpp"
 #include "commit.h"
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -53,14 +53,6 @@ Machine describe(const renderer::DeviceDescription& device) {
             .clocks = {}};
 }
 
-void writePicture(const std::filesystem::path& file, const renderer::Pixels& pixels) {
-    std::vector<std::uint8_t> bytes(pixels.values.size());
-    std::transform(pixels.values.begin(), pixels.values.end(), bytes.begin(), [](float value) {
-        return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
-    });
-    scene::writeJpeg(file, pixels.width, pixels.height, bytes);
-}
-
 ImagePair render(Stage& stage, const Picture& picture, const std::filesystem::path& folder) {
     Configuration configuration{.effect = picture.before,
                                 .view = picture.view,
@@ -70,7 +62,7 @@ ImagePair render(Stage& stage, const Picture& picture, const std::filesystem::pa
     const auto renderTo = [&](const Configuration& which, const std::string& file) {
         stage.select(which);
         stage.renderFrame();
-        writePicture(folder / file, stage.read(renderer::Output::Color));
+        writeJpeg(folder / file, stage.read(renderer::Output::Color));
         return file;
     };
     Configuration after = configuration;

@@ -55,20 +55,20 @@ vk::raii::Sampler makeSkySampler(const Gpu& gpu, vk::SamplerAddressMode longitud
 
 } // namespace
 
-scene::FloatImage makeSky(const scene::Environment& environment) {
-    scene::FloatImage image{.width = 2 * skyHeight, .height = skyHeight, .pixels = {}};
+nacre::Image makeSky(const scene::Environment& environment) {
+    nacre::Image image{2 * skyHeight, skyHeight, {"R", "G", "B", "A"}, {}};
     for (std::uint32_t row = 0; row < image.height; ++row) {
         const float elevation = std::cos(std::numbers::pi_v<float> * (static_cast<float>(row) + 0.5f) / skyHeight);
         const glm::vec3 above = glm::mix(environment.horizon, environment.zenith, std::sqrt(std::max(elevation, 0.0f)));
         const glm::vec3 color = glm::mix(environment.ground, above, smoothStep(-0.15f, 0.05f, elevation));
         for (std::uint32_t column = 0; column < image.width; ++column) {
-            image.pixels.insert(image.pixels.end(), {color.r, color.g, color.b, 1.0f});
+            image.values.insert(image.values.end(), {color.r, color.g, color.b, 1.0f});
         }
     }
     return image;
 }
 
-std::array<glm::vec3, 9> irradianceHarmonics(const scene::FloatImage& image) {
+std::array<glm::vec3, 9> irradianceHarmonics(const nacre::Image& image) {
     std::array<glm::dvec3, 9> sum{};
     double weight = 0;
     for (std::uint32_t row = 0; row < image.height; ++row) {
@@ -78,7 +78,7 @@ std::array<glm::vec3, 9> irradianceHarmonics(const scene::FloatImage& image) {
             const double phi = 2 * pi * ((column + 0.5) / image.width - 0.5);
             const Harmonics basis =
                 harmonics({std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)});
-            const float* pixel = &image.pixels[(std::size_t{row} * image.width + column) * 4];
+            const float* pixel = &image.values[(std::size_t{row} * image.width + column) * 4];
             for (std::size_t i = 0; i < basis.size(); ++i) {
                 sum[i] += glm::dvec3(pixel[0], pixel[1], pixel[2]) * (basis[i] * solidAngle);
             }
@@ -96,9 +96,9 @@ std::array<glm::vec3, 9> irradianceHarmonics(const scene::FloatImage& image) {
 Environment::Environment(Gpu& gpu, const scene::Environment& environment, std::uint32_t framesInFlight)
     : sampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eRepeat)),
       clampSampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eClampToEdge)) {
-    const scene::FloatImage image = environment.image ? *environment.image : makeSky(environment);
-    if (image.width == 0 || image.pixels.size() != std::size_t{image.width} * image.height * 4) {
-        throw RendererError("the environment image has " + std::to_string(image.pixels.size()) + " values for its " +
+    const nacre::Image image = environment.image ? *environment.image : makeSky(environment);
+    if (image.width == 0 || image.values.size() != std::size_t{image.width} * image.height * 4) {
+        throw RendererError("the environment image has " + std::to_string(image.values.size()) + " values for its " +
                             std::to_string(image.width) + "x" + std::to_string(image.height) + " pixels");
     }
     uploadRadiance(gpu, image);
@@ -115,9 +115,9 @@ void Environment::setLook(float intensity, float rotation) {
     constants_.rotation = {std::cos(rotation), std::sin(rotation), intensity, 0};
 }
 
-void Environment::uploadRadiance(Gpu& gpu, const scene::FloatImage& image) {
-    std::vector<std::uint16_t> halves(image.pixels.size());
-    std::transform(image.pixels.begin(), image.pixels.end(), halves.begin(),
+void Environment::uploadRadiance(Gpu& gpu, const nacre::Image& image) {
+    std::vector<std::uint16_t> halves(image.values.size());
+    std::transform(image.values.begin(), image.values.end(), halves.begin(),
                    [](float value) { return glm::packHalf1x16(std::clamp(value, 0.0f, largestHalf)); });
     using Kind = vk::ImageUsageFlagBits;
     radiance_ =

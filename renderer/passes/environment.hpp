@@ -34,7 +34,7 @@ public:
     const vk::raii::Sampler& clampSampler() const { return clampSampler_; }
 
 private:
-    void uploadRadiance(Gpu& gpu, const scene::FloatImage& image);
+    void uploadRadiance(Gpu& gpu, const nacre::Image& image);
     void prefilter(Gpu& gpu);
 
     Image radiance_;
@@ -47,10 +47,10 @@ private:
 };
 
 /// The built-in sky as an equirectangular image: zenith over horizon over ground.
-scene::FloatImage makeSky(const scene::Environment& environment);
+nacre::Image makeSky(const scene::Environment& environment);
 
 /// Irradiance of an equirectangular image: E(n) = Σ result[i] · Y_i(n) over the nine harmonics of degree 0 to 2, the
 /// cosine lobe's factors π, 2π/3 and π/4 included (Ramamoorthi and Hanrahan 2001, eqs. 8 and 12).
-std::array<glm::vec3, 9> irradianceHarmonics(const scene::FloatImage& image);
+std::array<glm::vec3, 9> irradianceHarmonics(const nacre::Image& image);
 
 } // namespace nacre::renderer

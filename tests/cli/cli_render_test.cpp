@@ -2,10 +2,10 @@
 #include "command.hpp"
 #include "schema.hpp"
 
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
+#include "scene/texture.hpp"
 
 #include <nlohmann/json.hpp>
-#include <tinyexr.h>
 
 #include <algorithm>
 #include <set>
@@ -24,28 +24,6 @@ namespace fs = std::filesystem;
 const std::string bunny = "/usr/share/glmark2/models/bunny.obj";
 constexpr int width = 64;
 constexpr int height = 36;
-
-struct ExrImage {
-    int width = 0;
-    int height = 0;
-    std::vector<float> firstChannel;
-};
-
-ExrImage readExr(const fs::path& file) {
-    EXRVersion version;
-    EXRHeader header;
-    EXRImage image;
-    InitEXRHeader(&header);
-    InitEXRImage(&image);
-    EXPECT_EQ(ParseEXRVersionFromFile(&version, file.c_str()), TINYEXR_SUCCESS) << file;
-    EXPECT_EQ(ParseEXRHeaderFromFile(&header, &version, file.c_str(), nullptr), TINYEXR_SUCCESS) << file;
-    EXPECT_EQ(LoadEXRImageFromFile(&image, &header, file.c_str(), nullptr), TINYEXR_SUCCESS) << file;
-    const auto* const first = reinterpret_cast<const float*>(image.images[0]);
-    ExrImage result{image.width, image.height, {first, first + std::ptrdiff_t{image.width} * image.height}};
-    FreeEXRImage(&image);
-    FreeEXRHeader(&header);
-    return result;
-}
 
 class RenderTest : public CommandTest {
 protected:
@@ -211,10 +189,10 @@ TEST_F(RenderTest, EveryAovIsWritten) {
     const nlohmann::json report = render(arguments);
     EXPECT_EQ(report["files"].size(), names.size() + 1);
     for (const nlohmann::json& file : report["files"]) {
-        const ExrImage image = readExr(folder() / file["file"].get<std::string>());
+        const nacre::Image image = nacre::readImage(folder() / file["file"].get<std::string>());
         EXPECT_EQ(image.width, width);
         EXPECT_EQ(image.height, height);
-        const auto [low, high] = std::ranges::minmax(image.firstChannel);
+        const auto [low, high] = std::ranges::minmax(image.values);
         EXPECT_LT(low, high) << file;
     }
 }
@@ -222,14 +200,14 @@ TEST_F(RenderTest, EveryAovIsWritten) {
 TEST_F(RenderTest, AnExrOfManySamplesHasTheSizeAndLightOfThePicture) {
     const auto mean = [&](const char* samples) {
         render({bunny, "--samples", samples, "-o", "color.exr"});
-        const ExrImage image = readExr(folder() / "color.exr");
+        const nacre::Image image = nacre::readImage(folder() / "color.exr");
         EXPECT_EQ(image.width, width);
         EXPECT_EQ(image.height, height);
         double sum = 0;
-        for (const float value : image.firstChannel) {
+        for (const float value : image.values) {
             sum += value;
         }
-        return sum / width / height;
+        return sum / static_cast<double>(image.values.size());
     };
     const double one = mean("1");
     EXPECT_NEAR(mean("3"), one, 0.05 * one);

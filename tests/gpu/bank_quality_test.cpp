@@ -1,5 +1,6 @@
 // Techniques `bank` and `bank-surfaces` on hard synthetic scenes: against their CPU twin, which they must equal but for
 // half floats, and against the brute-force sum in double precision.
+#include "image/metrics.hpp"
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/support/bank_twin.hpp"
 #include "tests/support/scatter_reference.hpp"
@@ -13,15 +14,13 @@ namespace {
 class BankQualityTest : public GpuTest {};
 
 double psnrOfTwin(const ScatterScene& scene, std::span<const Rgb> image, std::span<const Rgb> twin) {
-    double sum = 0;
-    std::size_t count = 0;
+    ErrorSums sums;
     for (std::size_t i = 0; i < image.size(); ++i) {
         for (int channel = 0; scene.materialId[i] != 0 && channel < 3; ++channel) {
-            sum += (image[i][channel] - twin[i][channel]) * (image[i][channel] - twin[i][channel]);
-            ++count;
+            sums.add(image[i][channel], twin[i][channel]);
         }
     }
-    return -10 * std::log10(sum / static_cast<double>(count) + 1e-12);
+    return sums.psnr(1);
 }
 
 struct Case {

@@ -65,7 +65,7 @@ TEST_F(GBuffer, NothingIsInfinitelyFarAndShowsTheSurroundings) {
     scene::Scene scene = darkScene(2);
     add(scene, square(0.5f));
     scene.environment.intensity = 1;
-    scene.environment.image = scene::FloatImage{8, 4, std::vector<float>(8 * 4 * 4, 0.25f)};
+    scene.environment.image = nacre::Image{8, 4, {"R", "G", "B", "A"}, std::vector<float>(8 * 4 * 4, 0.25f)};
     const renderer::Offscreen renderer = render(scene, plainSettings());
     EXPECT_TRUE(std::isinf(at(renderer.read(Output::Depth), 2, 2)));
     EXPECT_EQ(at(renderer.read(Output::Normal), 2, 2, 2), 0);

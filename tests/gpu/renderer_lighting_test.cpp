@@ -78,7 +78,7 @@ TEST_F(Lighting, UniformSurroundingsGivePiTimesTheirRadiance) {
     scene::Scene scene = darkScene(2);
     add(scene, square(3));
     scene.environment.intensity = 2;
-    scene.environment.image = scene::FloatImage{64, 32, std::vector<float>(64 * 32 * 4, 0.25f)};
+    scene.environment.image = nacre::Image{64, 32, {"R", "G", "B", "A"}, std::vector<float>(64 * 32 * 4, 0.25f)};
     const renderer::Offscreen renderer = render(scene, plainSettings());
     const Pixels irradiance = renderer.read(Output::Irradiance);
     for (const std::uint32_t x : {10u, 80u, 150u}) {
@@ -92,7 +92,7 @@ TEST_F(Lighting, WhiteMetalInUniformSurroundingsReflectsThem) {
     surface.baseColor = glm::vec4(1);
     surface.metallic = 1;
     surface.roughness = 0.2f;
-    scene.environment.image = scene::FloatImage{64, 32, std::vector<float>(64 * 32 * 4, 0.5f)};
+    scene.environment.image = nacre::Image{64, 32, {"R", "G", "B", "A"}, std::vector<float>(64 * 32 * 4, 0.5f)};
     scene.environment.intensity = 1;
     const renderer::Offscreen renderer = render(scene, plainSettings());
     EXPECT_NEAR(at(renderer.read(Output::Specular), 80, 45), 0.5f, 0.01f);

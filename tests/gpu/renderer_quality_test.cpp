@@ -3,10 +3,12 @@
 // reference's largest value.
 #include "tests/gpu/support/renderer_scenes.hpp"
 
+#include "image/metrics.hpp"
 #include "nacre/presets.hpp"
 #include "scene/gallery.hpp"
 #include "scene/import.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace nacre::tests {
@@ -17,23 +19,11 @@ using renderer::Pixels;
 
 class Quality : public RendererTest {};
 
-double psnr(const Pixels& image, const Pixels& reference, const Pixels& material) {
-    double peak = 0;
-    double error = 0;
-    std::size_t count = 0;
-    for (std::size_t pixel = 0; pixel < material.values.size(); ++pixel) {
-        if (material.values[pixel] == 0) {
-            continue;
-        }
-        for (std::size_t channel = 3 * pixel; channel < 3 * pixel + 3; ++channel) {
-            const double difference = double{image.values[channel]} - double{reference.values[channel]};
-            peak = std::max(peak, double{reference.values[channel]});
-            error += difference * difference;
-            ++count;
-        }
-    }
-    EXPECT_GT(count, 3000u) << "too few subsurface pixels to say anything";
-    return 10 * std::log10(peak * peak * static_cast<double>(count) / error);
+double qualityOf(const Pixels& image, const Pixels& reference, const Pixels& material) {
+    Mask mask(material.values.size());
+    std::ranges::transform(material.values, mask.begin(), [](float id) { return static_cast<std::uint8_t>(id != 0); });
+    EXPECT_GT(countedPixels(reference, mask), 1000u) << "too few subsurface pixels to say anything";
+    return errors(image, reference, mask).psnr(quantile(reference, 1, mask));
 }
 
 struct Target {
@@ -63,7 +53,7 @@ void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const
         settings.technique = target.technique;
         renderer.setEffect(settings);
         renderer.renderEffect();
-        const double quality = psnr(renderer.read(Output::Scattered), reference, material);
+        const double quality = qualityOf(renderer.read(Output::Scattered), reference, material);
         std::printf("%s, %s: %.1f dB\n", name.c_str(), target.name, quality);
         EXPECT_GE(quality, target.technique == NACRE_TECHNIQUE_BANK            ? leastOfBank
                            : target.technique == NACRE_TECHNIQUE_BANK_SURFACES ? 45

@@ -3,7 +3,7 @@
 
 #include "bench/results/results.hpp"
 #include "bench/results/series_fits.hpp"
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <string>
@@ -122,16 +122,16 @@ struct Pictures : tests::TemporaryFolder {
     Pictures() {
         constexpr std::uint32_t width = 320;
         constexpr std::uint32_t height = 180;
-        std::vector<std::uint8_t> grey(std::size_t{3} * width * height);
-        for (std::size_t i = 0; i < grey.size(); ++i) {
-            grey[i] = static_cast<std::uint8_t>(i / 3 % width * 255 / width);
+        Image ramp = makeImage(width, height, {"R", "G", "B"}, Encoding::Srgb);
+        for (std::size_t i = 0; i < ramp.values.size(); ++i) {
+            ramp.values[i] = static_cast<float>(i / 3 % width) / width;
         }
-        std::vector<std::uint8_t> red = grey;
-        for (std::size_t i = 0; i < red.size(); i += 3) {
-            red[i] = 255;
+        Image red = ramp;
+        for (std::size_t i = 0; i < red.values.size(); i += 3) {
+            red.values[i] = 1;
         }
-        scene::writePng(path / "off.png", width, height, 3, grey);
-        scene::writePng(path / "on.png", width, height, 3, red);
+        writePng(path / "off.png", ramp);
+        writePng(path / "on.png", red);
     }
 };
 

@@ -1,4 +1,6 @@
 #include "tests/support/scatter_reference.hpp"
+
+#include "image/metrics.hpp"
 #include "tests/support/worst.hpp"
 
 #include <algorithm>
@@ -194,14 +196,13 @@ std::vector<ReferencePixel> scatterReference(const ScatterScene& scene, int stri
 }
 
 double psnr(const ScatterScene& scene, std::span<const ReferencePixel> reference, std::span<const Rgb> image) {
-    double sum = 0;
+    ErrorSums sums;
     for (const ReferencePixel& pixel : reference) {
         for (int channel = 0; channel < 3; ++channel) {
-            const double error = image[scene.index(pixel.x, pixel.y)][channel] - pixel.value[channel];
-            sum += error * error;
+            sums.add(image[scene.index(pixel.x, pixel.y)][channel], pixel.value[channel]);
         }
     }
-    return -10 * std::log10(std::max(sum / (3.0 * static_cast<double>(reference.size())), 1e-12));
+    return sums.psnr(1);
 }
 
 double largestError(const ScatterScene& scene, std::span<const ReferencePixel> reference, std::span<const Rgb> image) {

@@ -18,7 +18,7 @@ namespace {
 
 // A row of pixels.
 IdentifiedPicture rowOf(std::vector<float> pixels, std::vector<float> ids) {
-    return {static_cast<std::uint32_t>(ids.size()), 1, std::move(pixels), std::move(ids)};
+    return {{static_cast<std::uint32_t>(ids.size()), 1, {"R", "G", "B"}, std::move(pixels)}, std::move(ids)};
 }
 
 // Of one colour, all with a material.
@@ -78,14 +78,14 @@ TEST(ImageError, EnlargesNaNToWhereItIsTheNeighbourAndNoFurther) {
 }
 
 TEST(ImageError, OfALinearPictureEnlargedIsNone) {
-    IdentifiedPicture small{8, 8, {}, std::vector<float>(64, 1.0f)};
-    IdentifiedPicture large{16, 16, {}, std::vector<float>(256, 1.0f)};
+    IdentifiedPicture small{{8, 8, {"R", "G", "B"}, {}}, std::vector<float>(64, 1.0f)};
+    IdentifiedPicture large{{16, 16, {"R", "G", "B"}, {}}, std::vector<float>(256, 1.0f)};
     for (IdentifiedPicture* picture : {&small, &large}) {
-        const float side = static_cast<float>(picture->width);
-        for (std::uint32_t i = 0; i < picture->width * picture->height; ++i) {
+        const float side = static_cast<float>(picture->image.width);
+        for (std::uint32_t i = 0; i < picture->image.pixelCount(); ++i) {
             // The outermost pixels have no neighbour beyond them: flat there.
-            const float x = std::clamp((float(i % picture->width) + 0.5f) / side, 1 / 16.0f, 15 / 16.0f);
-            picture->pixels.insert(picture->pixels.end(), 3, x);
+            const float x = std::clamp((float(i % picture->image.width) + 0.5f) / side, 1 / 16.0f, 15 / 16.0f);
+            picture->image.values.insert(picture->image.values.end(), 3, x);
         }
     }
     EXPECT_GT(ReferencePicture(large).compare(small).psnr, 120);

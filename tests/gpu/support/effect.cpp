@@ -1,6 +1,7 @@
 #include "tests/gpu/support/effect.hpp"
 
 #include "core/half.hpp"
+#include "image/metrics.hpp"
 
 #include <cmath>
 #include <limits>
@@ -281,17 +282,13 @@ Material burley() {
 }
 
 double psnr(std::span<const Float4> image, std::span<const Float4> reference, std::span<const std::uint16_t> ids) {
-    double squares = 0;
-    std::size_t count = 0;
+    ErrorSums sums;
     for (std::size_t i = 0; i < image.size(); ++i) {
         for (int channel = 0; ids[i] != 0 && channel < 3; ++channel) {
-            const double difference = double{image[i][channel]} - reference[i][channel];
-            squares += difference * difference;
-            ++count;
+            sums.add(image[i][channel], reference[i][channel]);
         }
     }
-    return squares == 0 ? std::numeric_limits<double>::infinity()
-                        : 10 * std::log10(static_cast<double>(count) / squares);
+    return sums.psnr(1);
 }
 
 } // namespace nacre::tests
