@@ -50,7 +50,7 @@ TEST(Comparison, OfShownPicturesHasPeakOneAndLinearEnergy) {
 }
 
 TEST(Comparison, OfLightHasThePeakOfItsReference) {
-    Image reference = plain(2);
+    Image reference = plain(2, Encoding::Linear, 40);
     reference.values[0] = 1000; // a glint is not what full is
     ComparisonSettings settings{.flip = FlipKind::Hdr};
     const Comparison comparison = compareImages(reference, reference, settings);
