@@ -18,6 +18,7 @@ constexpr const char* examples = R"(Examples:
   nacre render -o gallery.png                           the built-in gallery
   nacre render model.glb --material skin --back         any model, lit from behind
   nacre render scene.json -o frame.exr --json frame.json
+  nacre compare frame.exr reference.exr                 how far a picture is from another
   nacre material list                                   what there is to render with
   nacre devices                                         what there is to render on
 `nacre COMMAND --help` tells the rest.)";
@@ -78,6 +79,7 @@ int main(int argumentCount, char** arguments) {
         app.set_version_flag("--version", "nacre " NACRE_VERSION);
         app.footer(examples);
         nacre::app::addRender(app);
+        nacre::app::addCompare(app);
         nacre::app::addMaterial(app);
         nacre::app::addDevices(app);
         nacre::app::addBench(app);

@@ -81,7 +81,7 @@ std::string describeTransmission(const Material& material) {
     return material.diffuseTransmission > 0 ? ", diffuse transmission " + number(material.diffuseTransmission) : "";
 }
 
-std::string describe(const Material& material) {
+std::string describeMaterial(const Material& material) {
     std::ostringstream text;
     text << material.name << ": " << material.description << '\n'
          << "  strength " << material.strength << ", translucency " << material.translucency
@@ -100,7 +100,7 @@ void showMaterial(const std::string& nameOrFile, const std::filesystem::path& js
     }
     const Material material = readMaterial(nameOrFile);
     if (json.empty()) {
-        std::cout << describe(material);
+        std::cout << describeMaterial(material);
     } else {
         writeText(json, formatMaterial(material));
     }
