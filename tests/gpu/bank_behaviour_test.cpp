@@ -1,5 +1,6 @@
 // What techniques `bank` and `bank-surfaces` owe beyond their error: energy, stillness in motion, no leaks at any level
 // of the pyramid.
+#include "image/metrics.hpp"
 #include "tests/gpu/support/scene_input.hpp"
 #include "tests/support/worst.hpp"
 
@@ -31,10 +32,6 @@ INSTANTIATE_TEST_SUITE_P(Techniques, BankBehaviourTest,
                          [](const auto& technique) {
                              return technique.param == NACRE_TECHNIQUE_BANK ? "Bank" : "BankSurfaces";
                          });
-
-double decibels(double squares, double count) {
-    return -10 * std::log10(squares / count + 1e-12);
-}
 
 // A plane of one material with lit discs far from the border: as much light leaves as enters.
 TEST_P(BankBehaviourTest, LightIsNeitherLostNorMade) {
@@ -123,7 +120,7 @@ TEST_P(BankBehaviourTest, MovingByPixelsChangesLittle) {
                         }
                     }
                 }
-                worst = smaller(worst, decibels(squares, count));
+                worst = smaller(worst, nacre::psnr(squares / count, 1));
             }
             std::printf("%-10s worst of seven steps of one pixel %.1f dB\n", scenes[0].name.c_str(), worst);
             EXPECT_GE(worst, 50) << scenes[0].name;
@@ -158,9 +155,9 @@ TEST_P(BankBehaviourTest, ZoomingDoesNotPop) {
             }
         }
     }
-    std::printf("change from frame to frame %.1f dB, of the change %.1f dB\n", decibels(change, count),
-                decibels(jump, count));
-    EXPECT_GE(decibels(jump, count), 65);
+    std::printf("change from frame to frame %.1f dB, of the change %.1f dB\n", nacre::psnr(change / count, 1),
+                nacre::psnr(jump / count, 1));
+    EXPECT_GE(nacre::psnr(jump / count, 1), 65);
 }
 
 // Whole tiles that held a surface and light in the frame before, and hold none now, are as if they never had.

@@ -1,6 +1,7 @@
 // What scatter and transmit add up to: no light is taken, none is given twice.
 #include "tests/gpu/support/renderer_scenes.hpp"
 
+#include "image/metrics.hpp"
 #include "nacre/presets.hpp"
 #include "scene/gallery.hpp"
 
@@ -272,10 +273,6 @@ struct BallError {
     double scatteredOnly = 0; ///< PSNR of scattered
 };
 
-double peakSignalToNoise(double peak, double squares, double count) {
-    return 10 * std::log10(peak * peak * count / squares);
-}
-
 /// A ball under a light from +Z.
 class Ball {
 public:
@@ -327,8 +324,7 @@ BallError Ball::measure(double degrees) {
         peak = std::max(peak, expected);
         ++count;
     }
-    BallError error{.decibels = peakSignalToNoise(peak, squares, count),
-                    .scatteredOnly = peakSignalToNoise(peak, squaresScattered, count)};
+    BallError error{.decibels = psnr(squares / count, peak), .scatteredOnly = psnr(squaresScattered / count, peak)};
     for (std::size_t channel = 0; channel < 3; ++channel) {
         error.ratio[channel] = ours[channel] / exact[channel];
     }
