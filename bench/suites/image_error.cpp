@@ -99,8 +99,10 @@ ImageError ReferencePicture::compare(const IdentifiedPicture& picture) const {
     image.values = sameSize ? picture.image.values : enlarge(picture, reference_);
     std::ranges::transform(image.values, image.values.begin(), finite);
     const ErrorSums sums = errors(image, reference_.image, mask_);
-    return {
-        .psnr = std::clamp(sums.psnr(peak_), 0.0, maxPsnr), .relMse = sums.relMse(), .energyRatio = sums.energyRatio()};
+    const double energyRatio = sums.energyRatio(); // infinite where the reference is black
+    return {.psnr = std::clamp(sums.psnr(peak_), 0.0, maxPsnr),
+            .relMse = sums.relMse(),
+            .energyRatio = std::isfinite(energyRatio) ? energyRatio : 1};
 }
 
 } // namespace nacre::bench
