@@ -2,8 +2,10 @@
 
 #include "app/command.hpp"
 #include "app/material_source.hpp"
-#include "scene/gallery.hpp"
+#include "scene/default_view.hpp"
+#include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
+#include "scene/surface_material.hpp"
 
 #include <glm/geometric.hpp>
 

@@ -1,9 +1,9 @@
 #include "scene/import.hpp"
 
-#include "scene/assimp_import.hpp"
-#include "scene/file.hpp"
-#include "scene/gltf.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/assimp/assimp_import.hpp"
+#include "scene/default_view.hpp"
+#include "scene/files/scene_file.hpp"
+#include "scene/gltf/gltf_import.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -6,6 +6,7 @@
 #include "bench/suites/thesis_constants.hpp"
 #include "nacre/presets.hpp"
 #include "scene/import.hpp"
+#include "scene/surface_material.hpp"
 
 #include <algorithm>
 

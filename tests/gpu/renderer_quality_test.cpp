@@ -5,8 +5,9 @@
 
 #include "image/metrics.hpp"
 #include "nacre/presets.hpp"
-#include "scene/gallery.hpp"
+#include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
+#include "scene/surface_material.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // Puts small glTF files together for tests.
 #pragma once
 
-#include "scene/gltf.hpp"
+#include "scene/gltf/gltf_import.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "scene/gallery.hpp"
+#include "scene/gallery/gallery.hpp"
 
 #include <gtest/gtest.h>
 

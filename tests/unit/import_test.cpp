@@ -1,8 +1,10 @@
 // Importers: normals, tangents, units, views, and models that would bring a process down.
+#include "scene/default_view.hpp"
 #include "scene/import.hpp"
 
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
+#include "scene/surface_material.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

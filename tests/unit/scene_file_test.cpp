@@ -1,5 +1,5 @@
 // Scene files: what they place, what they refuse, and that the schema says the same as the reader.
-#include "scene/scene_file.hpp"
+#include "scene/files/scene_file.hpp"
 
 #include "scene/import.hpp"
 #include "tests/support/temporary_folder.hpp"

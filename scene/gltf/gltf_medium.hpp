@@ -1,7 +1,7 @@
 // From glTF's physical description of a medium to a subsurface material.
 #pragma once
 
-#include "scene/gltf_object.hpp"
+#include "scene/scene.hpp"
 
 namespace nacre::scene {
 
@@ -18,9 +18,6 @@ struct GltfMedium {
     glm::vec3 multiscatterColor{0}; ///< albedo with all orders of scattering
     double anisotropy = 0;          ///< g of Henyey and Greenstein
 };
-
-/// Reads the extensions of a material; throws SceneError for values out of range.
-GltfMedium readMedium(const GltfFile& file, const tinygltf::ExtensionMap& extensions, const std::string& owner);
 
 /// [mm] Thickness given to thin walls: so thin that nothing is lost on the way through.
 inline constexpr double thinWallThickness = 0.01;

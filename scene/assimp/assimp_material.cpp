@@ -1,4 +1,4 @@
-#include "scene/assimp_material.hpp"
+#include "scene/assimp/assimp_material.hpp"
 
 #include "image/image_file.hpp"
 #include "scene/texture.hpp"

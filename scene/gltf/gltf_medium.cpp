@@ -1,11 +1,10 @@
-#include "scene/gltf_subsurface.hpp"
+#include "scene/gltf/gltf_medium.hpp"
 
 #include "nacre/burley.hpp"
 #include "nacre/media.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nacre::scene {
 namespace {
@@ -52,46 +51,6 @@ std::optional<Rgb> transmissionColor(const GltfMedium& medium) {
 }
 
 } // namespace
-
-GltfMedium readMedium(const GltfFile& file, const tinygltf::ExtensionMap& extensions, const std::string& owner) {
-    const auto extension = [&](const char* name) { return GltfObject(file, extensions, name, owner); };
-    constexpr double farthest = 1e9;
-    GltfMedium medium;
-
-    const GltfObject volume = extension("KHR_materials_volume");
-    medium.thickness = volume.number("thicknessFactor", 0, 0, farthest);
-    medium.attenuationDistance = volume.number("attenuationDistance", 0, 0, std::numeric_limits<double>::max());
-    medium.attenuationColor = volume.color("attenuationColor", glm::vec3(1));
-
-    const GltfObject transmission = extension("KHR_materials_transmission");
-    const GltfObject diffuse = extension("KHR_materials_diffuse_transmission");
-    medium.transmits = transmission.exists() || diffuse.exists();
-    medium.thinTransmission = diffuse.number("diffuseTransmissionFactor", 0, 0, 1);
-    if (diffuse.exists()) {
-        medium.transmissionColor = diffuse.color("diffuseTransmissionColorFactor", glm::vec3(1));
-    }
-    medium.transmission = std::max(medium.thinTransmission, transmission.number("transmissionFactor", 0, 0, 1));
-
-    const GltfObject volumeScatter = extension("KHR_materials_volume_scatter");
-    const GltfObject scatter = extension("KHR_materials_scatter");
-    medium.scatters = scatter.exists() || (volumeScatter.exists() && medium.thickness > 0);
-    if (scatter.exists()) {
-        medium.anisotropy = scatter.number("scatterAnisotropy", 0, -1, 1);
-        medium.multiscatterColor = scatter.color("multiscatterColorFactor", glm::vec3(1)) *
-                                   static_cast<float>(scatter.number("scatterStrengthFactor", 0, 0, 1));
-        if (medium.thickness == 0) { // thin: forward (1 + g)/2, back (1 − g)/2
-            medium.thinTransmission =
-                std::max(medium.transmission, medium.transmits ? 0.0 : 1.0) * 0.5 * (1 + medium.anisotropy);
-        }
-    } else if (medium.scatters) {
-        const char* older = "multiscatterColor"; // before 2026-02
-        const char* key = volumeScatter.has(older) ? older : "multiscatterColorFactor";
-        medium.anisotropy = volumeScatter.number("scatterAnisotropy", 0, -1, 1);
-        medium.multiscatterColor = volumeScatter.color(key, glm::vec3(0));
-    }
-    medium.anisotropy = std::clamp(medium.anisotropy, -0.99, 0.99); // ±1 are outside the phase function's range
-    return medium;
-}
 
 std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string& name) {
     const bool volumetric =

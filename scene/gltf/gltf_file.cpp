@@ -1,8 +1,11 @@
-#include "scene/gltf_file.hpp"
+#include "scene/gltf/gltf_file.hpp"
 
-#include "scene/file.hpp"
-#include "scene/gltf.hpp"
-#include "scene/gltf_types.hpp"
+#include "nacre/files.hpp"
+#include "scene/gltf/gltf_draco.hpp"
+#include "scene/gltf/gltf_import.hpp"
+#include "scene/gltf/gltf_material_extensions.hpp"
+#include "scene/gltf/gltf_meshopt.hpp"
+#include "scene/gltf/gltf_types.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,28 +23,13 @@ constexpr std::uint32_t glbBinaryChunk = 0x004e4942;
 /// Deeper JSON is refused: tinygltf reads extensions recursively.
 constexpr int maxJsonDepth = 64;
 
-/// What is understood, or concerns only looks that this renderer does not have.
-constexpr std::array knownExtensions{"EXT_meshopt_compression",
-                                     "KHR_draco_mesh_compression",
-                                     "KHR_lights_punctual",
-                                     "KHR_materials_anisotropy",
-                                     "KHR_materials_clearcoat",
-                                     "KHR_materials_diffuse_transmission",
-                                     "KHR_materials_dispersion",
-                                     "KHR_materials_emissive_strength",
-                                     "KHR_materials_ior",
-                                     "KHR_materials_iridescence",
-                                     "KHR_materials_pbrSpecularGlossiness",
-                                     "KHR_materials_scatter",
-                                     "KHR_materials_sheen",
-                                     "KHR_materials_specular",
-                                     "KHR_materials_transmission",
-                                     "KHR_materials_unlit",
-                                     "KHR_materials_variants",
-                                     "KHR_materials_volume",
-                                     "KHR_materials_volume_scatter",
-                                     "KHR_mesh_quantization",
-                                     "KHR_texture_transform"};
+/// What is understood beside the extensions of materials.
+constexpr std::array knownExtensions{"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual",
+                                     "KHR_mesh_quantization", "KHR_texture_transform"};
+
+bool isKnown(const std::string& extension) {
+    return isMaterialExtension(extension) || std::ranges::find(knownExtensions, extension) != knownExtensions.end();
+}
 
 std::uint32_t wordAt(std::span<const std::uint8_t> bytes, std::size_t offset) {
     std::uint32_t word = 0;
@@ -141,7 +129,7 @@ void checkExtensions(const GltfFile& file, const Json& document) {
         failGltf(file, "extensionsRequired must be an array of strings");
     }
     for (const Json& name : *required) {
-        if (!name.is_string() || std::ranges::find(knownExtensions, name.get<std::string>()) == knownExtensions.end()) {
+        if (!name.is_string() || !isKnown(name.get<std::string>())) {
             failGltf(file, "requires the extension " + name.dump() + ", which is not supported");
         }
     }
@@ -160,15 +148,13 @@ Bytes loadBuffer(const GltfFile& file, const Json& buffer, const std::string& fi
     }
     const auto size = length->get<std::uint64_t>();
     const auto uri = buffer.find("uri");
-    const Json* extensions = findObject(buffer, "extensions");
-    const Json* meshopt = extensions != nullptr ? findObject(*extensions, "EXT_meshopt_compression") : nullptr;
     Bytes bytes;
     if (uri != buffer.end()) {
         if (!uri->is_string()) {
             failGltf(file, field + ".uri must be a string");
         }
         bytes = readUri(file, uri->get<std::string>(), field + ".uri");
-    } else if (meshopt != nullptr && meshopt->value("fallback", Json()) == true) {
+    } else if (isMeshoptFallback(buffer)) {
         return {}; // what it would hold is decompressed from other buffers
     } else if (!binary.empty()) {
         bytes.assign(binary.begin(), binary.end());
@@ -198,25 +184,6 @@ GltfImage readImage(const GltfFile& file, const Json& image, const std::string& 
         result.name = name->get<std::string>();
     }
     return result;
-}
-
-/// Draco brings its own indices; tinygltf would refuse the accessor that only counts them.
-void dropDracoIndices(Json& document) {
-    const auto meshes = document.find("meshes");
-    if (meshes == document.end() || !meshes->is_array()) {
-        return;
-    }
-    for (Json& mesh : *meshes) {
-        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) {
-            continue;
-        }
-        for (Json& primitive : mesh["primitives"]) {
-            const Json* extensions = primitive.is_object() ? findObject(primitive, "extensions") : nullptr;
-            if (extensions != nullptr && findObject(*extensions, "KHR_draco_mesh_compression") != nullptr) {
-                primitive.erase("indices");
-            }
-        }
-    }
 }
 
 /// tinygltf demands what glTF leaves out where the matrices are identities.

@@ -1,7 +1,8 @@
-#include "scene/gltf.hpp"
+#include "scene/gltf/gltf_import.hpp"
 
-#include "scene/gltf_material.hpp"
-#include "scene/gltf_mesh.hpp"
+#include "scene/gltf/gltf_light.hpp"
+#include "scene/gltf/gltf_material.hpp"
+#include "scene/gltf/gltf_mesh.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -12,17 +13,6 @@ namespace {
 
 std::string nodeField(int node) {
     return "nodes[" + std::to_string(node) + "]";
-}
-
-glm::vec3 vec3Of(const GltfFile& file, const std::vector<double>& values, const glm::vec3& fallback,
-                 const std::string& field) {
-    if (values.empty()) {
-        return fallback;
-    }
-    if (values.size() != 3) {
-        failGltf(file, field + " must be an array of 3 numbers");
-    }
-    return {values[0], values[1], values[2]};
 }
 
 glm::mat4 localTransform(const GltfFile& file, int index) {
@@ -43,8 +33,8 @@ glm::mat4 localTransform(const GltfFile& file, int index) {
             const auto part = [&](std::size_t i) { return static_cast<float>(node.rotation[i]); };
             rotation = glm::normalize(glm::quat(part(3), part(0), part(1), part(2)));
         }
-        transform[3] = glm::vec4(vec3Of(file, node.translation, glm::vec3(0), field + ".translation"), 1);
-        const glm::vec3 scale = vec3Of(file, node.scale, glm::vec3(1), field + ".scale");
+        transform[3] = glm::vec4(vectorOf(file, node.translation, glm::vec3(0), field + ".translation"), 1);
+        const glm::vec3 scale = vectorOf(file, node.scale, glm::vec3(1), field + ".scale");
         const glm::mat3 linear = glm::mat3_cast(rotation) * glm::mat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
         for (int column = 0; column < 3; ++column) {
             transform[column] = glm::vec4(linear[column], 0);
@@ -140,9 +130,8 @@ private:
         if (source.camera >= 0) {
             addCamera(elementOf(file_, file_.model.cameras, source.camera, nodeField(index) + ".camera"), index);
         }
-        const GltfObject light(file_, source.extensions, "KHR_lights_punctual", nodeField(index));
-        if (light.exists()) {
-            addLight(light.index("light"), index);
+        if (auto light = readLight(file_, source, nodeField(index), transforms_[static_cast<std::size_t>(index)])) {
+            scene_.lights.push_back(std::move(*light));
         }
     }
 
@@ -215,39 +204,6 @@ private:
                 static_cast<float>(checkRange(file_, source.perspective.yfov, 1e-3, 3.14, field + ".perspective.yfov"));
         }
         scene_.cameras.push_back(std::move(camera));
-    }
-
-    void addLight(int light, int index) {
-        const tinygltf::Light& source =
-            elementOf(file_, file_.model.lights, light, nodeField(index) + ".extensions.KHR_lights_punctual.light");
-        const std::string field = "extensions.KHR_lights_punctual.lights[" + std::to_string(light) + "]";
-        const glm::mat4& transform = transforms_[static_cast<std::size_t>(index)];
-        constexpr double most = 1e12;
-        Light result;
-        result.name = source.name.empty() ? node(index).name : source.name;
-        if (source.type == "directional" || source.type == "spot" || source.type == "point") {
-            result.kind = source.type == "directional" ? LightKind::Directional
-                          : source.type == "spot"      ? LightKind::Spot
-                                                       : LightKind::Point;
-        } else {
-            failGltf(file_, field + ".type is \"" + source.type + "\", must be directional, spot or point");
-        }
-        if (!source.color.empty()) {
-            result.color = vec3Of(file_, source.color, glm::vec3(1), field + ".color");
-            for (int i = 0; i < 3; ++i) {
-                checkRange(file_, result.color[i], 0, most, field + ".color");
-            }
-        }
-        result.intensity = static_cast<float>(checkRange(file_, source.intensity, 0, most, field + ".intensity"));
-        result.range = static_cast<float>(checkRange(file_, source.range, 0, most, field + ".range"));
-        result.position = glm::vec3(transform[3]);
-        result.direction = -glm::normalize(glm::vec3(transform[2]));
-        constexpr double quarterTurn = 1.5707963267948966;
-        result.outerConeAngle = static_cast<float>(
-            checkRange(file_, source.spot.outerConeAngle, 1e-4, quarterTurn, field + ".spot.outerConeAngle"));
-        result.innerConeAngle = static_cast<float>(
-            checkRange(file_, source.spot.innerConeAngle, 0, result.outerConeAngle, field + ".spot.innerConeAngle"));
-        scene_.lights.push_back(std::move(result));
     }
 
     const GltfFile& file_;

@@ -1,8 +1,8 @@
-#include "scene/assimp_import.hpp"
+#include "scene/assimp/assimp_import.hpp"
 
-#include "scene/assimp_axes.hpp"
-#include "scene/assimp_material.hpp"
-#include "scene/file.hpp"
+#include "nacre/files.hpp"
+#include "scene/assimp/assimp_axes.hpp"
+#include "scene/assimp/assimp_material.hpp"
 #include "scene/import.hpp"
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
@@ -21,7 +21,7 @@ namespace {
 constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords |
                            aiProcess_TransformUVCoords | aiProcess_FlipUVs | aiProcess_GlobalScale;
 /// A deeper hierarchy than this is an attack or an accident.
-constexpr int maxDepth = 1000;
+constexpr int maxNodeDepth = 1000;
 
 glm::vec3 convert(const aiVector3D& v) {
     return {v.x, v.y, v.z};
@@ -71,8 +71,8 @@ private:
     }
 
     void addNode(const aiNode& node, const glm::mat4& parent, int depth) {
-        if (depth > maxDepth) {
-            throw SceneError(name_ + ": its nodes are nested more than " + std::to_string(maxDepth) + " deep");
+        if (depth > maxNodeDepth) {
+            throw SceneError(name_ + ": its nodes are nested more than " + std::to_string(maxNodeDepth) + " deep");
         }
         const glm::mat4 transform = parent * convert(node.mTransformation);
         for (int i = 0; i < 16; ++i) {

@@ -1,4 +1,4 @@
-#include "scene/gltf_types.hpp"
+#include "scene/gltf/gltf_types.hpp"
 
 #include "scene/json_text.hpp"
 

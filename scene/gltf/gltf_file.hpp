@@ -46,6 +46,10 @@ const T& elementOf(const GltfFile& file, const std::vector<T>& items, int index,
     return items[static_cast<std::size_t>(index)];
 }
 
+/// `size` bytes of `bytes` from `offset` on, or a SceneError.
+std::span<const std::uint8_t> slice(const GltfFile& file, std::span<const std::uint8_t> bytes, std::uint64_t offset,
+                                    std::uint64_t size, const std::string& field);
+
 /// The bytes of a buffer view, decompressed.
 std::span<const std::uint8_t> viewBytes(const GltfFile& file, int view, const std::string& field);
 
@@ -61,8 +65,5 @@ std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor, const
 
 /// Components of an accessor's elements: 1 to 4, or 4, 9, 16 for matrices.
 int componentCount(const GltfFile& file, int accessor, const std::string& field);
-
-/// Fills `decodedViews`.
-void decodeMeshoptViews(GltfFile& file);
 
 } // namespace nacre::scene

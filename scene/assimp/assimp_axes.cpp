@@ -1,4 +1,4 @@
-#include "scene/assimp_axes.hpp"
+#include "scene/assimp/assimp_axes.hpp"
 
 #include <cstring>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "scene/scene_file_object.hpp"
+#include "scene/files/scene_file_object.hpp"
 
 #include "scene/json_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "scene/gallery/stage.hpp"
+#include "scene/gallery/plinth.hpp"
 
 #include "scene/gallery/portable_math.hpp"
 #include "scene/gallery/solid.hpp"

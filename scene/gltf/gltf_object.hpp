@@ -1,7 +1,7 @@
 // Typed, range-checked reads of a JSON object that tinygltf leaves as it is, such as an extension.
 #pragma once
 
-#include "scene/gltf_file.hpp"
+#include "scene/gltf/gltf_file.hpp"
 
 namespace nacre::scene {
 
@@ -44,6 +44,10 @@ private:
 
 /// Checks a number that tinygltf has read; values within rounding of the range are moved into it.
 double checkRange(const GltfFile& file, double value, double low, double high, const std::string& field);
+
+/// Three numbers that tinygltf has read, or `fallback` where there are none.
+glm::vec3 vectorOf(const GltfFile& file, const std::vector<double>& values, const glm::vec3& fallback,
+                   const std::string& field);
 
 /// KHR_texture_transform of a texture reference: T·R·S as its specification writes it.
 void readTextureTransform(const GltfObject& extension, GltfTextureUse& use);

@@ -1,7 +1,7 @@
 // Materials and looks that a scene file gives to the surfaces of a model.
 #pragma once
 
-#include "scene/scene_file_object.hpp"
+#include "scene/files/scene_file_object.hpp"
 
 namespace nacre::scene {
 

@@ -1,8 +1,7 @@
 // glTF materials and textures as surfaces.
 #pragma once
 
-#include "scene/gltf_object.hpp"
-#include "scene/gltf_subsurface.hpp"
+#include "scene/gltf/gltf_material_extensions.hpp"
 
 #include <map>
 #include <tuple>
@@ -21,10 +20,10 @@ public:
 
 private:
     std::uint32_t convert(const tinygltf::Material& source, const std::string& field);
-    void readTextures(const tinygltf::Material& source, const std::string& field, Surface& surface, int& texCoord);
-    void readSpecularGlossiness(const tinygltf::Material& source, const std::string& field, Surface& surface,
-                                GltfTextureUse& baseColor);
-    void readSubsurface(const tinygltf::Material& source, const std::string& field, Surface& surface);
+    void readTextures(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
+                      const std::string& field, Surface& surface, int& texCoord);
+    void readSubsurface(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
+                        const std::string& field, Surface& surface);
     std::uint32_t texture(const GltfTextureUse& use, bool srgb);
 
     const GltfFile& file_;

@@ -1,7 +1,7 @@
 // glTF primitives as meshes.
 #pragma once
 
-#include "scene/gltf_file.hpp"
+#include "scene/gltf/gltf_file.hpp"
 #include "scene/import_mesh.hpp"
 
 #include <map>
@@ -26,9 +26,6 @@ struct GltfPrimitive {
 
 /// Reads a primitive, Draco-compressed or not; nothing for points and lines.
 std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::size_t primitive);
-
-/// Decodes KHR_draco_mesh_compression; throws SceneError when the data are damaged.
-GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field);
 
 /// Adds the morph targets with the given weights to positions and normals.
 void applyMorphTargets(const GltfFile& file, int mesh, std::size_t primitive, std::span<const double> weights,

@@ -1,10 +1,14 @@
-#include "scene/gltf_mesh.hpp"
-#include "scene/gltf_object.hpp"
+#include "scene/gltf/gltf_draco.hpp"
+
+#include "scene/gltf/gltf_object.hpp"
 
 #include <draco/compression/decode.h>
+#include <nlohmann/json.hpp>
 
 namespace nacre::scene {
 namespace {
+
+constexpr const char* dracoExtension = "KHR_draco_mesh_compression";
 
 GltfPrimitive::Attribute readAttribute(const GltfFile& file, const draco::Mesh& mesh,
                                        const draco::PointAttribute& attribute, const std::string& field) {
@@ -27,9 +31,31 @@ GltfPrimitive::Attribute readAttribute(const GltfFile& file, const draco::Mesh& 
 
 } // namespace
 
+void dropDracoIndices(nlohmann::json& document) {
+    const auto meshes = document.find("meshes");
+    if (meshes == document.end() || !meshes->is_array()) {
+        return;
+    }
+    const nlohmann::json::json_pointer compressed(std::string("/extensions/") + dracoExtension);
+    for (nlohmann::json& mesh : *meshes) {
+        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) {
+            continue;
+        }
+        for (nlohmann::json& primitive : mesh["primitives"]) {
+            if (primitive.is_object() && primitive.contains(compressed) && primitive[compressed].is_object()) {
+                primitive.erase("indices");
+            }
+        }
+    }
+}
+
+bool isDraco(const tinygltf::Primitive& primitive) {
+    return primitive.extensions.contains(dracoExtension);
+}
+
 GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field) {
-    const GltfObject extension(file, source.extensions, "KHR_draco_mesh_compression", field);
-    const std::string name = field + ".extensions.KHR_draco_mesh_compression";
+    const GltfObject extension(file, source.extensions, dracoExtension, field);
+    const std::string name = field + ".extensions." + dracoExtension;
     const auto bytes = viewBytes(file, extension.index("bufferView"), name + ".bufferView");
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -1,8 +1,8 @@
-#include "scene/scene_file_material.hpp"
+#include "scene/files/scene_file_material.hpp"
 
 #include "nacre/files.hpp"
 #include "nacre/presets.hpp"
-#include "scene/import.hpp"
+#include "scene/surface_material.hpp"
 
 #include <algorithm>
 
@@ -15,19 +15,19 @@ std::uint32_t addMaterial(const std::filesystem::path& sceneFile, const SceneFil
     if (value.is_null()) {
         return none;
     }
+    const std::string where = object.file() + ": " + object.fieldOf(key);
     if (value.is_object()) {
-        model.materials.push_back(parseMaterial(value.dump(), object.file() + ": " + object.fieldOf(key)));
-    } else if (const Material* preset = value.is_string() ? findPreset(value.get<std::string>()) : nullptr) {
-        model.materials.push_back(*preset);
-    } else {
-        const auto target =
-            value.is_string() ? sceneFile.parent_path() / value.get<std::string>() : std::filesystem::path();
-        if (!std::filesystem::is_regular_file(target)) {
-            object.refuse(key, "a preset's name, an existing material file, a material or null");
-        }
-        model.materials.push_back(loadMaterial(target));
+        return addMaterial(model, parseMaterial(value.dump(), where), where);
     }
-    return static_cast<std::uint32_t>(model.materials.size() - 1);
+    if (const Material* preset = value.is_string() ? findPreset(value.get<std::string>()) : nullptr) {
+        return addMaterial(model, *preset, where);
+    }
+    const auto target =
+        value.is_string() ? sceneFile.parent_path() / value.get<std::string>() : std::filesystem::path();
+    if (!std::filesystem::is_regular_file(target)) {
+        object.refuse(key, "a preset's name, an existing material file, a material or null");
+    }
+    return addMaterial(model, loadMaterial(target), where);
 }
 
 void assignByName(const std::filesystem::path& sceneFile, SceneFileObject& object, const nlohmann::json& byName,

@@ -1,5 +1,4 @@
-// What a scene needs to be looked at, and materials for surfaces.
-#include "scene/import.hpp"
+#include "scene/default_view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,33 +84,6 @@ void fitLights(Scene& scene) {
         (irradiance > white * tolerated || irradiance < white / tolerated)) {
         for (Light& light : scene.lights) {
             light.intensity *= white / irradiance;
-        }
-    }
-}
-
-void setSurfaceMaterial(Scene& scene, Surface& surface, std::uint32_t material) {
-    surface.material = material;
-    if (material == none) {
-        return;
-    }
-    const Material& source = scene.materials[material];
-    if (surface.baseColorTexture == none) {
-        surface.baseColor = glm::vec4(source.albedo[0], source.albedo[1], source.albedo[2], surface.baseColor.w);
-    }
-    if (surface.metallicRoughnessTexture == none) {
-        surface.roughness = static_cast<float>(source.roughness);
-        surface.metallic = 0;
-    }
-    surface.specular = static_cast<float>(source.specular);
-}
-
-void assignMaterial(Scene& scene, const Material& material) {
-    const auto scatters = [](const Surface& surface) { return surface.material != none; };
-    const bool all = std::ranges::none_of(scene.surfaces, scatters);
-    scene.materials = {material};
-    for (Surface& surface : scene.surfaces) {
-        if (all || scatters(surface)) {
-            setSurfaceMaterial(scene, surface, 0);
         }
     }
 }

@@ -1,4 +1,4 @@
-#include "scene/gltf_object.hpp"
+#include "scene/gltf/gltf_object.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,17 @@ double checkRange(const GltfFile& file, double value, double low, double high, c
         failGltf(file, field + " is " + format(value) + ", must be " + format(low) + " to " + format(high));
     }
     return std::clamp(value, low, high);
+}
+
+glm::vec3 vectorOf(const GltfFile& file, const std::vector<double>& values, const glm::vec3& fallback,
+                   const std::string& field) {
+    if (values.empty()) {
+        return fallback;
+    }
+    if (values.size() != 3) {
+        failGltf(file, field + " must be an array of 3 numbers");
+    }
+    return {values[0], values[1], values[2]};
 }
 
 GltfObject::GltfObject(const GltfFile& file, const tinygltf::Value& value, std::string field)

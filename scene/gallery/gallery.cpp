@@ -1,8 +1,9 @@
-#include "scene/gallery.hpp"
+#include "scene/gallery/gallery.hpp"
 
 #include "nacre/presets.hpp"
 #include "scene/gallery/bodies.hpp"
-#include "scene/gallery/stage.hpp"
+#include "scene/gallery/plinth.hpp"
+#include "scene/surface_material.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -109,8 +110,7 @@ std::uint32_t addSurfaceOf(Scene& scene, const Exhibit& exhibit) {
     if (!preset)
         throw SceneError(std::string("the gallery's ") + exhibit.name + " needs the preset '" + exhibit.preset + "'");
     const std::uint32_t surface = addSurface(scene, exhibit.name, exhibit.color, exhibit.roughness);
-    scene.surfaces[surface].material = std::uint32_t(scene.materials.size());
-    scene.materials.push_back(*preset);
+    scene.surfaces[surface].material = addMaterial(scene, *preset, std::string("the gallery's ") + exhibit.name);
     // Seen from where the gallery's cameras stand its jade has 47 dB without them, and the whole gallery would take 16
     // us more (1920x1080, NVIDIA H200).
     scene.materials.back().secondSurfaces = false;

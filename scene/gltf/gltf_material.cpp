@@ -1,10 +1,12 @@
-#include "scene/gltf_material.hpp"
+#include "scene/gltf/gltf_material.hpp"
 
+#include "scene/surface_material.hpp"
 #include "scene/texture.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace nacre::scene {
 namespace {
@@ -50,6 +52,13 @@ glm::vec3 linearMean(const Texture& texture) {
     return glm::vec3(sum / static_cast<double>(count));
 }
 
+void replaceLook(const GltfSpecularGlossiness& look, Surface& surface) {
+    surface.baseColor = look.diffuse;
+    surface.metallic = 0;
+    surface.roughness = static_cast<float>(1 - look.glossiness);
+    surface.specular = std::min(std::max({look.specular.x, look.specular.y, look.specular.z}) / 0.08f, 1.0f);
+}
+
 } // namespace
 
 std::uint32_t GltfMaterials::surface(int material) {
@@ -66,59 +75,57 @@ std::uint32_t GltfMaterials::surface(int material) {
 std::uint32_t GltfMaterials::convert(const tinygltf::Material& source, const std::string& field) {
     const auto& pbr = source.pbrMetallicRoughness;
     const std::string pbrField = field + ".pbrMetallicRoughness";
-    const auto extension = [&](const char* name) { return GltfObject(file_, source.extensions, name, field); };
+    const GltfMaterialExtensions extensions = readMaterialExtensions(file_, source.extensions, field);
     Surface surface;
     surface.name = source.name;
     surface.baseColor = readColor(file_, pbr.baseColorFactor, 4, glm::vec4(1), pbrField + ".baseColorFactor");
     surface.metallic = static_cast<float>(checkRange(file_, pbr.metallicFactor, 0, 1, pbrField + ".metallicFactor"));
     surface.roughness = static_cast<float>(checkRange(file_, pbr.roughnessFactor, 0, 1, pbrField + ".roughnessFactor"));
-    const double ior = extension("KHR_materials_ior").number("ior", 1.5, 0, 100);
-    const double reflectance = ior == 0 ? 1 : std::pow((ior - 1) / (ior + 1), 2); // 0 stands for infinite
-    const double factor = extension("KHR_materials_specular").number("specularFactor", 1, 0, 1);
-    surface.specular = static_cast<float>(std::min(reflectance * factor / 0.08, 1.0));
-    const double emission = extension("KHR_materials_emissive_strength").number("emissiveStrength", 1, 0, 1e9);
+    const double ior = extensions.ior;
+    const double reflectance = ior == 0 ? 1 : std::pow((ior - 1) / (ior + 1), 2);
+    surface.specular = static_cast<float>(std::min(reflectance * extensions.specularFactor / 0.08, 1.0));
     surface.emission = glm::vec3(readColor(file_, source.emissiveFactor, 3, glm::vec4(0), field + ".emissiveFactor")) *
-                       static_cast<float>(emission);
+                       static_cast<float>(extensions.emissiveStrength);
+    if (extensions.specularGlossiness) {
+        replaceLook(*extensions.specularGlossiness, surface);
+    }
     surface.doubleSided = source.doubleSided;
     surface.normalScale =
         static_cast<float>(checkRange(file_, source.normalTexture.scale, -1e3, 1e3, field + ".normalTexture.scale"));
     int texCoord = 0;
-    readTextures(source, field, surface, texCoord);
+    readTextures(source, extensions, field, surface, texCoord);
     surface.alphaMask = source.alphaMode == "MASK" || (source.alphaMode == "BLEND" && surface.baseColorTexture != none);
     surface.alphaCutoff =
         source.alphaMode == "MASK"
             ? static_cast<float>(checkRange(file_, source.alphaCutoff, 0, 1e3, field + ".alphaCutoff"))
             : 0.5f;
-    readSubsurface(source, field, surface);
+    readSubsurface(source, extensions, field, surface);
     scene_.surfaces.push_back(std::move(surface));
     texCoords_.push_back(texCoord);
     return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);
 }
 
-void GltfMaterials::readTextures(const tinygltf::Material& source, const std::string& field, Surface& surface,
-                                 int& texCoord) {
-    const auto extension = [&](const char* name) { return GltfObject(file_, source.extensions, name, field); };
+void GltfMaterials::readTextures(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
+                                 const std::string& field, Surface& surface, int& texCoord) {
     const auto& pbr = source.pbrMetallicRoughness;
-    GltfTextureUse baseColor = useOf(file_, pbr.baseColorTexture, field + ".pbrMetallicRoughness.baseColorTexture");
-    readSpecularGlossiness(source, field, surface, baseColor);
+    GltfTextureUse baseColor = extensions.specularGlossiness ? extensions.specularGlossiness->diffuseTexture
+                                                             : useOf(file_, pbr.baseColorTexture,
+                                                                     field + ".pbrMetallicRoughness.baseColorTexture");
     // Without a base colour texture, what the medium scatters is the colour that is seen.
-    for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
-        if (baseColor.texture < 0) {
-            baseColor = extension(name).texture("multiscatterColorTexture");
-        }
+    if (baseColor.texture < 0) {
+        baseColor = extensions.multiscatterColorTexture;
     }
     const GltfTextureUse normal = useOf(file_, source.normalTexture, field + ".normalTexture");
     const GltfTextureUse metallicRoughness =
         useOf(file_, pbr.metallicRoughnessTexture, field + ".pbrMetallicRoughness.metallicRoughnessTexture");
-    const GltfTextureUse thickness = extension("KHR_materials_volume").texture("thicknessTexture");
+    const GltfTextureUse& thickness = extensions.thicknessTexture;
 
     surface.baseColorTexture = texture(baseColor, true);
     surface.normalTexture = texture(normal, false);
     surface.metallicRoughnessTexture = texture(metallicRoughness, false);
     surface.thicknessTexture = texture(thickness, false);
     bool first = true;
-    for (const GltfTextureUse* use :
-         std::initializer_list<const GltfTextureUse*>{&baseColor, &normal, &metallicRoughness, &thickness}) {
+    for (const GltfTextureUse* use : {&std::as_const(baseColor), &normal, &metallicRoughness, &thickness}) {
         if (use->texture < 0) {
             continue;
         }
@@ -134,36 +141,18 @@ void GltfMaterials::readTextures(const tinygltf::Material& source, const std::st
     }
 }
 
-void GltfMaterials::readSpecularGlossiness(const tinygltf::Material& source, const std::string& field, Surface& surface,
-                                           GltfTextureUse& baseColor) {
-    const GltfObject extension(file_, source.extensions, "KHR_materials_pbrSpecularGlossiness", field);
-    if (!extension.exists()) {
-        return;
-    }
-    const auto diffuse = extension.numbers("diffuseFactor", {1, 1, 1, 1}, 0, 1);
-    const glm::vec3 specular = extension.color("specularFactor", glm::vec3(1));
-    surface.baseColor = glm::vec4(diffuse[0], diffuse[1], diffuse[2], diffuse[3]);
-    surface.metallic = 0;
-    surface.roughness = static_cast<float>(1 - extension.number("glossinessFactor", 1, 0, 1));
-    surface.specular = std::min(std::max({specular.x, specular.y, specular.z}) / 0.08f, 1.0f);
-    baseColor = extension.texture("diffuseTexture");
-}
-
-void GltfMaterials::readSubsurface(const tinygltf::Material& source, const std::string& field, Surface& surface) {
-    GltfMedium medium = readMedium(file_, source.extensions, field);
+void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
+                                   const std::string& field, Surface& surface) {
+    GltfMedium medium = extensions.medium;
     const bool textured = surface.baseColorTexture != none;
-    for (const char* name : {"KHR_materials_scatter", "KHR_materials_volume_scatter"}) {
-        const GltfObject extension(file_, source.extensions, name, field);
-        const std::uint32_t image = texture(extension.texture("multiscatterColorTexture"), true);
-        if (image != none) { // a profile has one albedo
-            medium.multiscatterColor *= linearMean(scene_.textures[image]);
-        }
+    const std::uint32_t image = texture(extensions.multiscatterColorTexture, true);
+    if (image != none) { // a profile has one albedo
+        medium.multiscatterColor *= linearMean(scene_.textures[image]);
     }
-    const GltfObject diffuse(file_, source.extensions, "KHR_materials_diffuse_transmission", field);
-    const GltfTextureUse colorTexture = diffuse.texture("diffuseTransmissionColorTexture");
-    if (const std::uint32_t image = texture(colorTexture, true); image != none) { // a material has one colour
-        *medium.transmissionColor *= linearMean(scene_.textures[image]);
-        scene_.notes.push_back(file_.path.string() + ": " + colorTexture.field + " is averaged to one colour");
+    const GltfTextureUse& through = extensions.diffuseTransmissionColorTexture;
+    if (const std::uint32_t colors = texture(through, true); colors != none) { // a material has one colour
+        *medium.transmissionColor *= linearMean(scene_.textures[colors]);
+        scene_.notes.push_back(file_.path.string() + ": " + through.field + " is averaged to one colour");
     }
     if (medium.thickness > 0) {
         surface.thickness = static_cast<float>(medium.thickness * 1000);
@@ -172,12 +161,11 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const std::
     if (!material) {
         return;
     }
-    const glm::vec3 through = medium.transmissionColor.value_or(glm::vec3(1));
     const bool dense = medium.scatters && medium.multiscatterColor != glm::vec3(0);
     const float share = static_cast<float>(dense ? material->strength : 0);
     if (!textured && dense) {
-        surface.baseColor = glm::vec4(glm::mix(glm::vec3(surface.baseColor), medium.multiscatterColor * through, share),
-                                      surface.baseColor.w);
+        const glm::vec3 seen = medium.multiscatterColor * medium.transmissionColor.value_or(glm::vec3(1));
+        surface.baseColor = glm::vec4(glm::mix(glm::vec3(surface.baseColor), seen, share), surface.baseColor.w);
     }
     if (medium.thickness <= 0) {
         surface.thickness = static_cast<float>(thinWallThickness);
@@ -185,8 +173,7 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const std::
     material->albedo = {surface.baseColor.x, surface.baseColor.y, surface.baseColor.z};
     material->roughness = surface.roughness;
     material->specular = surface.specular;
-    surface.material = static_cast<std::uint32_t>(scene_.materials.size());
-    scene_.materials.push_back(std::move(*material));
+    surface.material = addMaterial(scene_, std::move(*material), file_.path.string() + ": " + field);
 }
 
 std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {

@@ -1,11 +1,11 @@
-#include "scene/scene_file.hpp"
+#include "scene/files/scene_file.hpp"
 
 #include "image/image_file.hpp"
-#include "scene/file.hpp"
-#include "scene/gallery.hpp"
+#include "nacre/files.hpp"
+#include "scene/files/scene_file_material.hpp"
+#include "scene/files/scene_file_object.hpp"
+#include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
-#include "scene/scene_file_material.hpp"
-#include "scene/scene_file_object.hpp"
 
 #include <algorithm>
 #include <array>

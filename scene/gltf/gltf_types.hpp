@@ -1,7 +1,7 @@
 // The types of a glTF document's members. tinygltf takes the default where an optional member has another type.
 #pragma once
 
-#include "scene/gltf_file.hpp"
+#include "scene/gltf/gltf_file.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,6 @@
-#include "scene/gltf_mesh.hpp"
+#include "scene/gltf/gltf_mesh.hpp"
+
+#include "scene/gltf/gltf_draco.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +70,7 @@ std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::
     if (source.mode < TINYGLTF_MODE_TRIANGLES) {
         return std::nullopt;
     }
-    if (source.extensions.contains("KHR_draco_mesh_compression")) {
+    if (isDraco(source)) {
         GltfPrimitive result = decodeDraco(file, source, field);
         checkCounts(result);
         return result;

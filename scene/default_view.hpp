@@ -1,0 +1,16 @@
+// What a scene needs to be looked at.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace nacre::scene {
+
+/// Adds a camera that sees all of the scene (when it has none) and key, fill and back light (when it has none).
+void addMissingViewAndLights(Scene& scene);
+
+/// Scales the lights' intensities, all by the same factor, where they would leave a white surface in the middle of the
+/// scene more than four times too bright or too dark: exporters write anything from 1 to 100,000 lux, the renderer
+/// keeps light in half floats, and the sky and the built-in lights are of the order of 1.
+void fitLights(Scene& scene);
+
+} // namespace nacre::scene

@@ -1,0 +1,43 @@
+#include "scene/surface_material.hpp"
+
+#include <algorithm>
+
+namespace nacre::scene {
+
+std::uint32_t addMaterial(Scene& scene, Material material, const std::string& where) {
+    if (const std::string fault = findFault(material); !fault.empty()) {
+        throw SceneError(where + ": " + fault);
+    }
+    scene.materials.push_back(std::move(material));
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+void setSurfaceMaterial(Scene& scene, Surface& surface, std::uint32_t material) {
+    surface.material = material;
+    if (material == none) {
+        return;
+    }
+    const Material& source = scene.materials[material];
+    if (surface.baseColorTexture == none) {
+        surface.baseColor = glm::vec4(source.albedo[0], source.albedo[1], source.albedo[2], surface.baseColor.w);
+    }
+    if (surface.metallicRoughnessTexture == none) {
+        surface.roughness = static_cast<float>(source.roughness);
+        surface.metallic = 0;
+    }
+    surface.specular = static_cast<float>(source.specular);
+}
+
+void assignMaterial(Scene& scene, const Material& material) {
+    const auto scatters = [](const Surface& surface) { return surface.material != none; };
+    const bool all = std::ranges::none_of(scene.surfaces, scatters);
+    scene.materials.clear();
+    addMaterial(scene, material, "material '" + material.name + "'");
+    for (Surface& surface : scene.surfaces) {
+        if (all || scatters(surface)) {
+            setSurfaceMaterial(scene, surface, 0);
+        }
+    }
+}
+
+} // namespace nacre::scene
