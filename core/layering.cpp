@@ -1,20 +1,29 @@
 #include "nacre/layering.hpp"
 
 #include "fault.hpp"
+#include "nacre/gaussian.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace nacre {
 namespace {
-
-constexpr Range thicknessRange{1e-6, std::numeric_limits<double>::infinity(), " mm"};
 
 // cosh(a)·sinh(b)/sinh(c) for a, b, c ≥ 0 without overflow; b and c may be infinite with a finite difference b − c.
 double hyperbolicRatio(double a, double b, double c, double bMinusC) {
     return 0.5 * std::exp(a + bMinusC) * (1 + std::exp(-2 * a)) * std::expm1(-2 * b) / std::expm1(-2 * c);
 }
+
+// [1/mm] Beyond it nothing that scatters has anything left.
+constexpr double highestFrequency = 1e6;
+
+// Gauss and Legendre's rule with eight points on [−1, 1].
+constexpr std::array gaussNodes{-0.9602898564975363, -0.7966664774136267, -0.5255324099163290, -0.1834346424956498,
+                                0.1834346424956498,  0.5255324099163290,  0.7966664774136267,  0.9602898564975363};
+constexpr std::array gaussWeights{0.1012285362903763, 0.2223810344533745, 0.3137066458778873, 0.3626837833783620,
+                                  0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
 
 struct Sides {
     double reflectance;
@@ -98,20 +107,7 @@ SlabResponse stacked(const SlabResponse& top, const SlabResponse& bottom) {
 }
 
 LayeredMedium::LayeredMedium(std::vector<Slab> slabs) : slabs_(std::move(slabs)) {
-    if (slabs_.empty() || slabs_.size() > maxLayers) {
-        throw std::invalid_argument("slabs has " + std::to_string(slabs_.size()) + " entries, must have 1 to " +
-                                    std::to_string(maxLayers));
-    }
-    for (std::size_t i = 0; i < slabs_.size(); ++i) {
-        const std::string field = indexed("slabs", i);
-        if (const std::string fault = findFault(slabs_[i].medium); !fault.empty()) {
-            throw std::invalid_argument(field + ".medium." + fault);
-        }
-        requireNoFault(findFault(field + ".thickness", slabs_[i].thickness, thicknessRange));
-        if (std::isinf(slabs_[i].thickness) && i + 1 < slabs_.size()) {
-            throw std::invalid_argument(field + ".thickness is infinite, which only the last may be");
-        }
-    }
+    requireNoFault(findFault(std::span<const Slab>(slabs_)));
 }
 
 SlabResponse LayeredMedium::response(int channel, double k) const {
@@ -162,7 +158,7 @@ LayerFit LayeredMedium::fit(int layerCount, double SlabResponse::*side) const {
     double low = 1e6;
     double high = 1e-6;
     for (int channel = 0; channel < 3; ++channel) {
-        double k = 1e6;
+        double k = highestFrequency;
         const double rest = spectrum(channel, k);
         while (k > 1e-6 && spectrum(channel, k) < rest + 0.01 * (1 - rest)) {
             k *= 0.9;
@@ -185,12 +181,73 @@ LayerFit LayeredMedium::reflectanceLayers(int layerCount) const {
     return fit(layerCount, &SlabResponse::reflectanceTop);
 }
 
+double LayeredMedium::reflectanceCdf(int channel, double r) const {
+    if (r <= 0) {
+        return 0;
+    }
+    // What comes back at every frequency leaves where it entered.
+    const double unscattered = response(channel, highestFrequency).reflectanceTop;
+    const double whole = response(channel, 0).reflectanceTop;
+    const auto scattered = [&](double k) { return response(channel, k).reflectanceTop - unscattered; };
+    // From zero to zero of the Bessel function, and finer at the start, where the transform falls.
+    constexpr int halfWaves = 500;
+    const double halfWave = std::numbers::pi / r;
+    double sum = 0;
+    double from = 0;
+    while (from < halfWaves * halfWave && scattered(from) > 1e-9 * whole) {
+        const double to = from + std::min(halfWave, std::max(0.5 * from, 1e-4 * halfWave));
+        for (std::size_t i = 0; i < gaussNodes.size(); ++i) {
+            const double k = std::lerp(from, to, 0.5 + 0.5 * gaussNodes[i]);
+            sum += 0.5 * (to - from) * gaussWeights[i] * scattered(k) * ::j1(k * r);
+        }
+        from = to;
+    }
+    // The rest by parts: ∫ f J₁(kr) r dk from K on is f(K)J₀(Kr) but for a term with the derivative of f.
+    return (unscattered + r * sum + scattered(from) * ::j0(from * r)) / whole;
+}
+
+Rgb LayeredMedium::cdfError(std::span<const Layer> layers) const {
+    const SumOfGaussiansProfile profile(std::vector<Layer>(layers.begin(), layers.end()));
+    constexpr int radiusCount = 48;
+    Rgb result{};
+    for (int channel = 0; channel < 3; ++channel) {
+        const double low = std::max(profile.inverseCdf(channel, 0.005), 1e-6);
+        const double high = std::max(profile.inverseCdf(channel, 0.999), low);
+        for (int i = 0; i < radiusCount; ++i) {
+            const double r = low * std::pow(high / low, double(i) / (radiusCount - 1));
+            result[channel] = std::max(result[channel], std::abs(profile.cdf(channel, r) - reflectanceCdf(channel, r)));
+        }
+    }
+    return result;
+}
+
 LayerFit LayeredMedium::transmittanceLayers(int layerCount) const {
     const Rgb through = diffuseTransmittance();
     if (*std::min_element(through.begin(), through.end()) < 1e-12) {
         throw std::logic_error("the layered medium lets no light through");
     }
     return fit(layerCount, &SlabResponse::transmittanceDown);
+}
+
+std::vector<Layer> layersOf(std::span<const Slab> slabs) {
+    const LayeredMedium medium({slabs.begin(), slabs.end()});
+    std::vector<Layer> layers = medium.reflectanceLayers(slabLayerCount).layers;
+    for (Layer& layer : layers) { // half spaces that absorb nothing have no widest radius
+        layer.variance = std::clamp(layer.variance, varianceRange.low, varianceRange.high);
+    }
+    return layers;
+}
+
+void describeBySlabs(Material& material, std::vector<Slab> slabs) {
+    material.layers = layersOf(slabs);
+    material.meanFreePath.reset();
+    const Rgb reflectance = LayeredMedium(slabs).diffuseReflectance();
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        material.albedo[channel] = std::clamp(reflectance[channel], 0.0, 1.0);
+    }
+    const double n = slabs.front().medium.refractiveIndex;
+    material.specular = std::min(1.0, std::pow((n - 1) / (n + 1), 2) / 0.08);
+    material.slabs = std::move(slabs);
 }
 
 LayeredMedium layeredSkin() {

@@ -19,8 +19,16 @@ Rgb scaledMeanFreePath(const Material& material) {
 
 std::string findProfileFault(const Material& material) {
     if (material.layers.empty() == !material.meanFreePath) {
-        return material.layers.empty() ? "layers and meanFreePath are both missing, one must describe the profile"
+        return material.layers.empty() ? "layers, meanFreePath and slabs are all missing, one must describe the profile"
                                        : "layers and meanFreePath are both given, only one may describe the profile";
+    }
+    if (!material.slabs.empty()) {
+        if (material.meanFreePath) {
+            return "slabs and meanFreePath are both given, only one may describe the profile";
+        }
+        if (auto fault = findFault(std::span<const Slab>(material.slabs)); !fault.empty()) {
+            return fault;
+        }
     }
     if (auto fault = findFault("scale", material.scale, scaleRange); !fault.empty()) {
         return fault;

@@ -12,6 +12,7 @@ namespace {
 constexpr Range scatteringRange{1e-4, 1e6, " 1/mm"};
 constexpr Range absorptionRange{0, 1e6, " 1/mm"};
 constexpr Range refractiveIndexRange{1, 3, ""};
+constexpr Range anisotropyRange{-0.99, 0.99, ""};
 
 // The dipole of one channel.
 struct Dipole {
@@ -83,6 +84,9 @@ std::string findFault(const Medium& medium) {
         return fault;
     }
     if (auto fault = findFault("absorption", medium.absorption, absorptionRange); !fault.empty()) {
+        return fault;
+    }
+    if (auto fault = findFault("anisotropy", medium.anisotropy, anisotropyRange); !fault.empty()) {
         return fault;
     }
     return findFault("refractiveIndex", medium.refractiveIndex, refractiveIndexRange);

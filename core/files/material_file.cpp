@@ -1,7 +1,11 @@
 #include "nacre/files.hpp"
 
+#include "nacre/layering.hpp"
+
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
 #include <set>
 
 namespace nacre {
@@ -14,6 +18,14 @@ constexpr std::uint64_t maxMaterialFileBytes = std::uint64_t{1} << 20;
 
 constexpr std::pair<AlbedoUse, const char*> albedoUseNames[] = {{AlbedoUse::Post, "post"},
                                                                 {AlbedoUse::PreAndPost, "preAndPost"}};
+
+constexpr std::pair<const char*, double SkinContent::*> skinShares[] = {{"melanin", &SkinContent::melanin},
+                                                                        {"eumelanin", &SkinContent::eumelanin},
+                                                                        {"haemoglobin", &SkinContent::haemoglobin},
+                                                                        {"oxygenation", &SkinContent::oxygenation},
+                                                                        {"water", &SkinContent::water}};
+
+constexpr const char* infiniteThickness = "infinite";
 
 // The library's messages start with "[json.exception.parse_error.101] ".
 std::string withoutPrefix(std::string_view message) {
@@ -131,7 +143,10 @@ void read(const Json& value, const std::string& field, Layer& result) {
     }
 }
 
-void read(const Json& value, const std::string& field, std::vector<Layer>& result) {
+void read(const Json& value, const std::string& field, Slab& result);
+
+// An array of as many objects as a material may have layers.
+template <typename Item> void readArray(const Json& value, const std::string& field, std::vector<Item>& result) {
     if (!value.is_array() || value.empty() || value.size() > maxLayers) {
         const std::string length =
             value.is_array() ? "has " + std::to_string(value.size()) + " entries" : "is no array";
@@ -142,12 +157,121 @@ void read(const Json& value, const std::string& field, std::vector<Layer>& resul
     }
 }
 
+void read(const Json& value, const std::string& field, std::vector<Layer>& result) {
+    readArray(value, field, result);
+}
+
+void read(const Json& value, const std::string& field, SkinContent& result) {
+    readObject(value, field, [&](const std::string& key, const std::string& name, const Json& member) {
+        for (const auto& [known, share] : skinShares) {
+            if (key == known) {
+                read(member, name, result.*share);
+                return true;
+            }
+        }
+        return false;
+    });
+}
+
+// A length, or the word for a slab without a lower face.
+void readThickness(const Json& value, const std::string& field, double& result) {
+    if (value == infiniteThickness) {
+        result = std::numeric_limits<double>::infinity();
+    } else if (value.is_number()) {
+        result = value.get<double>();
+    } else {
+        refuse(field, value, "a number of mm or \"infinite\"");
+    }
+}
+
+// The members of a slab as a file has them.
+struct SlabMembers {
+    std::optional<Rgb> absorption;
+    std::optional<Rgb> reducedScattering;
+    std::optional<Rgb> scattering;
+    std::optional<Rgb> anisotropy;
+    std::optional<double> refractiveIndex;
+    std::optional<double> thickness;
+    std::optional<SkinContent> skin;
+};
+
+SlabMembers readMembers(const Json& value, const std::string& field) {
+    SlabMembers slab;
+    readObject(value, field, [&](const std::string& key, const std::string& name, const Json& member) {
+        for (const auto& [known, coefficient] :
+             {std::pair("absorption", &slab.absorption), std::pair("reducedScattering", &slab.reducedScattering),
+              std::pair("scattering", &slab.scattering), std::pair("anisotropy", &slab.anisotropy)}) {
+            if (key == known) {
+                read(member, name, *coefficient);
+                return true;
+            }
+        }
+        if (key == "refractiveIndex") {
+            read(member, name, slab.refractiveIndex.emplace());
+        } else if (key == "thickness") {
+            readThickness(member, name, slab.thickness.emplace());
+        } else if (key == "skin") {
+            read(member, name, slab.skin.emplace());
+        }
+        return key == "refractiveIndex" || key == "thickness" || key == "skin";
+    });
+    return slab;
+}
+
+// Throws where members that belong together are not all there, or say the same twice.
+void checkMembers(const SlabMembers& slab, const std::string& field) {
+    if (!slab.thickness) {
+        throw FileError(field + ".thickness is missing");
+    }
+    if (slab.skin && slab.absorption) {
+        throw FileError(field + ".skin and " + field +
+                        ".absorption are both given, only one may describe what absorbs");
+    }
+    if (!slab.skin && !slab.absorption) {
+        throw FileError(field + ".absorption is missing, and there is no skin in its place");
+    }
+    if (slab.scattering && slab.reducedScattering) {
+        throw FileError(field + ".scattering and " + field + ".reducedScattering are both given, only one may");
+    }
+    if (slab.scattering && !slab.anisotropy) {
+        throw FileError(field + ".anisotropy is missing, which scattering needs");
+    }
+    if (!slab.skin && !slab.scattering && !slab.reducedScattering) {
+        throw FileError(field + ".reducedScattering is missing, and there is no scattering in its place");
+    }
+}
+
+void read(const Json& value, const std::string& field, Slab& result) {
+    const SlabMembers slab = readMembers(value, field);
+    checkMembers(slab, field);
+    if (slab.skin) {
+        if (const std::string fault = findFault(*slab.skin); !fault.empty()) {
+            throw FileError(field + ".skin." + fault);
+        }
+        result = makeSkinSlab(*slab.skin, *slab.thickness);
+    }
+    Medium& medium = result.medium;
+    result.thickness = *slab.thickness;
+    medium.absorption = slab.absorption.value_or(medium.absorption);
+    medium.anisotropy = slab.anisotropy.value_or(medium.anisotropy);
+    medium.reducedScattering = slab.reducedScattering.value_or(medium.reducedScattering);
+    medium.refractiveIndex = slab.refractiveIndex.value_or(tissueRefractiveIndex);
+    for (std::size_t channel = 0; slab.scattering && channel < 3; ++channel) {
+        medium.reducedScattering[channel] = (*slab.scattering)[channel] * (1 - medium.anisotropy[channel]);
+    }
+}
+
+void read(const Json& value, const std::string& field, std::vector<Slab>& result) {
+    readArray(value, field, result);
+}
+
 // Every member of a material that has a key, in the order of the file.
 template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& material, Visit visit) {
     visit("name", material.name);
     visit("description", material.description);
     visit("layers", material.layers);
     visit("meanFreePath", material.meanFreePath);
+    visit("slabs", material.slabs);
     visit("albedoUse", material.albedoUse);
     visit("strength", material.strength);
     visit("translucency", material.translucency);
@@ -169,12 +293,50 @@ template <typename Value> Json format(const std::optional<Value>& value) {
 template <typename Value> Json format(const Value& value) {
     return value;
 }
+Json format(const Slab& slab) {
+    Json result;
+    if (slab.skin) {
+        for (const auto& [key, share] : skinShares) {
+            result["skin"][key] = (*slab.skin).*share;
+        }
+    } else {
+        result["absorption"] = slab.medium.absorption;
+    }
+    result["reducedScattering"] = slab.medium.reducedScattering;
+    result["anisotropy"] = slab.medium.anisotropy;
+    result["refractiveIndex"] = slab.medium.refractiveIndex;
+    result["thickness"] = std::isinf(slab.thickness) ? Json(infiniteThickness) : Json(slab.thickness);
+    return result;
+}
+Json format(const std::vector<Slab>& slabs) {
+    Json result;
+    for (const Slab& slab : slabs) {
+        result.push_back(format(slab));
+    }
+    return result;
+}
 Json format(const std::vector<Layer>& layers) {
     Json result;
     for (const Layer& layer : layers) {
         result.push_back({{"weight", layer.weight}, {"variance", layer.variance}});
     }
     return result;
+}
+
+// The layers of the slabs, and what else they say unless the file says otherwise.
+void addLayersOfSlabs(Material& material, const Json& json) {
+    if (!material.layers.empty() || material.meanFreePath) {
+        throw FileError(std::string("slabs and ") + (material.meanFreePath ? "meanFreePath" : "layers") +
+                        " are both given, only one may describe the profile");
+    }
+    if (const std::string fault = findFault(std::span<const Slab>(material.slabs)); !fault.empty()) {
+        throw FileError(fault);
+    }
+    Material described = material;
+    describeBySlabs(described, material.slabs);
+    material.layers = described.layers;
+    material.albedo = json.contains("albedo") ? material.albedo : described.albedo;
+    material.specular = json.contains("specular") ? material.specular : described.specular;
 }
 
 Material readMaterial(const Json& json) {
@@ -189,6 +351,9 @@ Material readMaterial(const Json& json) {
         });
         return known;
     });
+    if (!material.slabs.empty()) {
+        addLayersOfSlabs(material, json);
+    }
     if (const std::string fault = findFault(material); !fault.empty()) {
         throw FileError(fault);
     }
@@ -209,9 +374,13 @@ std::string formatMaterial(const Material& material) {
     if (const std::string fault = findFault(material); !fault.empty()) {
         throw FileError(material.name + ": " + fault);
     }
+    if (!material.slabs.empty() && material.layers != layersOf(material.slabs)) {
+        throw FileError(material.name + ": layers are not those of slabs, and a file holds only one of them");
+    }
     Json json;
     visitMembers(material, [&](const char* key, const auto& value) {
-        if (Json member = format(value); !member.is_null()) {
+        const bool ofSlabs = std::string_view(key) == "layers" && !material.slabs.empty();
+        if (Json member = format(value); !member.is_null() && !ofSlabs) {
             json[key] = std::move(member);
         }
     });

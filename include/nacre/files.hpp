@@ -27,12 +27,14 @@ std::vector<std::uint8_t> readFile(const std::filesystem::path& file, std::uint6
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
 /// Reads a material from JSON text. Keys are the names of Material's members; those left out keep their defaults, and
-/// exactly one of `layers` and `meanFreePath` must be there. `sourceName` is what an error calls the text, e.g. a file
-/// name or "scene.json: materials[2]". Refused with a FileError: what is not JSON, a key that is unknown or given
-/// twice, a value of the wrong type, and everything findFault finds.
+/// exactly one of `layers`, `meanFreePath` and `slabs` must be there. A material of slabs has their layers and, where
+/// the text gives none, their albedo and specular (`describeBySlabs`). `sourceName` is what an error calls the text,
+/// e.g. a file name or "scene.json: materials[2]". Refused with a FileError: what is not JSON, a key that is unknown or
+/// given twice, a value of the wrong type, and everything findFault finds.
 Material parseMaterial(std::string_view json, std::string_view sourceName);
 
-/// The material as JSON text that parseMaterial turns into an equal material. Throws FileError for a faulty material.
+/// The material as JSON text that parseMaterial turns into an equal material. Throws FileError for a faulty material,
+/// and for one whose layers are not those of its slabs.
 std::string formatMaterial(const Material& material);
 
 /// parseMaterial of a file of up to 1 MiB; a material without a name is called like the file.

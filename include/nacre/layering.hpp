@@ -3,15 +3,10 @@
 #pragma once
 
 #include "nacre/fit.hpp"
-#include "nacre/media.hpp"
+#include "nacre/material.hpp"
+#include "nacre/slab.hpp"
 
 namespace nacre {
-
-/// A layer of a physical material; infinite thickness is allowed for the last one.
-struct Slab {
-    Medium medium;        ///< refractiveIndex is absolute (air is 1); thicknesses and coefficients in mm and 1/mm
-    double thickness = 0; ///< [> 0] mm
-};
 
 /// What a stack does to light at the spatial frequency k: the two-dimensional Fourier transforms of its profiles.
 struct SlabResponse {
@@ -50,6 +45,11 @@ public:
     /// The reflected light's profile as Gaussian layers, as Donner and Jensen's profiles were used for skin. maxError
     /// is that of the transform.
     LayerFit reflectanceLayers(int layerCount) const;
+    /// Share of the reflected light that leaves within r [≥ 0] mm: r·∫ R̃(k) J₁(kr) dk / R̃(0), to about 1e-4.
+    double reflectanceCdf(int channel, double r) const;
+    /// Largest difference of the layers' CDF from reflectanceCdf, per channel, over the radii within which 0.5 to
+    /// 99.9 % of the layers' light leaves.
+    Rgb cdfError(std::span<const Layer> layers) const;
     /// The same of the transmitted light. Throws std::logic_error when nothing comes through.
     LayerFit transmittanceLayers(int layerCount) const;
 
@@ -58,6 +58,17 @@ private:
 
     std::vector<Slab> slabs_;
 };
+
+/// Layers that a material is given for its slabs.
+inline constexpr int slabLayerCount = 8;
+
+/// Describes a material by a stack in air: keeps the slabs, and sets `layers` to the reflectance's slabLayerCount
+/// Gaussians, `albedo` to the share of diffuse light that comes back, and `specular` to the first slab's
+/// F0 = ((n − 1)/(n + 1))², at most 1. Some tenths of a second. Throws std::invalid_argument naming the field.
+void describeBySlabs(Material& material, std::vector<Slab> slabs);
+
+/// The layers that describeBySlabs sets.
+std::vector<Layer> layersOf(std::span<const Slab> slabs);
 
 /// Human skin in three slabs: epidermis 0.25 mm, upper dermis 0.20 mm, bloody dermis below (coefficients of Donner and
 /// Jensen 2005 as they are published, in 1/cm; here 1/mm).

@@ -1,7 +1,7 @@
 // A material: the layers light scatters through, and how the effect uses them.
 #pragma once
 
-#include "nacre/profile.hpp"
+#include "nacre/slab.hpp"
 
 #include <memory>
 #include <optional>
@@ -23,6 +23,10 @@ struct Material {
     /// [1e-6, 1e4] mm per channel: d of Burley's normalised diffusion (Christensen and Burley 2015), used when `layers`
     /// is empty.
     std::optional<Rgb> meanFreePath;
+    /// The stack of physical slabs, top first, that `layers` was fitted to, or nothing: describeBySlabs (layering.hpp)
+    /// sets both. References trace the slabs, the effect draws the layers, and a material file holds the slabs alone.
+    /// `scale` applies to both.
+    std::vector<Slab> slabs;
 
     AlbedoUse albedoUse = AlbedoUse::Post;
     /// [0, 1] how much of the light scatters; 0 leaves the surface as it is. Result = mix(irradiance, scattered,

@@ -13,6 +13,11 @@ struct Medium {
     Rgb reducedScattering{};      ///< [1e-4, 1e6] 1/mm, σs′ = (1 − g)·σs
     Rgb absorption{};             ///< [0, 1e6] 1/mm, σa
     double refractiveIndex = 1.3; ///< [1, 3] relative to what lies outside
+    /// [−0.99, 0.99] g of Henyey and Greenstein. Diffusion needs σs′ alone; a random walk scatters with σs = σs′/(1 −
+    /// g).
+    Rgb anisotropy{};
+
+    bool operator==(const Medium&) const = default;
 };
 
 /// A medium with the diffuse reflectance published beside its coefficients.

@@ -228,7 +228,7 @@ TEST(Stack, NamesItsFaults) {
     EXPECT_EQ(faultOf({grey(1, 0, 1), grey(1, 0, 0)}), "slabs[1].thickness is 0, must be in [1e-06, inf] mm");
     EXPECT_EQ(faultOf({grey(1, 0, infinity), grey(1, 0, 1)}),
               "slabs[0].thickness is infinite, which only the last may be");
-    EXPECT_EQ(faultOf({grey(1, -1, 1)}), "slabs[0].medium.absorption[0] is -1, must be in [0, 1000000] 1/mm");
+    EXPECT_EQ(faultOf({grey(1, -1, 1)}), "slabs[0].absorption[0] is -1, must be in [0, 1000000] 1/mm");
 }
 
 } // namespace

@@ -1,9 +1,11 @@
 #include "nacre/files.hpp"
+#include "nacre/layering.hpp"
 
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -58,6 +60,87 @@ TEST(MaterialFile, ReadsAMeanFreePathAndKeepsDefaults) {
     EXPECT_EQ(material.secondSurfaces, std::nullopt);
 }
 
+std::string withSlab(const std::string& slab, const std::string& more = "") {
+    return R"({"slabs": [)" + slab + "]" + more + "}";
+}
+
+TEST(MaterialFile, ReadsSlabs) {
+    const Material material = parseMaterial(R"({"slabs": [
+        {"absorption": [0.1, 0.2, 0.3], "scattering": [10, 20, 30], "anisotropy": [0.9, 0.8, 0.75], "thickness": 0.25},
+        {"absorption": [0, 0, 0], "reducedScattering": [1, 2, 3], "refractiveIndex": 1.3, "thickness": 2},
+        {"skin": {"haemoglobin": 0.05, "oxygenation": 0.5, "water": 0.6}, "thickness": "infinite"}]})",
+                                            "test.json");
+    ASSERT_EQ(material.slabs.size(), 3u);
+    const Medium& scattering = material.slabs[0].medium;
+    EXPECT_EQ(scattering.absorption, (Rgb{0.1, 0.2, 0.3}));
+    EXPECT_NEAR(scattering.reducedScattering[0], 1, 1e-12);
+    EXPECT_NEAR(scattering.reducedScattering[2], 7.5, 1e-12);
+    EXPECT_EQ(scattering.anisotropy, (Rgb{0.9, 0.8, 0.75}));
+    EXPECT_EQ(scattering.refractiveIndex, tissueRefractiveIndex);
+    EXPECT_EQ(material.slabs[0].thickness, 0.25);
+    EXPECT_EQ(material.slabs[1].medium.reducedScattering, (Rgb{1, 2, 3}));
+    EXPECT_EQ(material.slabs[1].medium.refractiveIndex, 1.3);
+    const SkinContent dermis{.haemoglobin = 0.05, .oxygenation = 0.5, .water = 0.6};
+    EXPECT_EQ(material.slabs[2].skin, dermis);
+    EXPECT_EQ(material.slabs[2].medium, makeSkinSlab(dermis, 1).medium);
+    EXPECT_TRUE(std::isinf(material.slabs[2].thickness));
+    EXPECT_EQ(material.layers, layersOf(material.slabs));
+    EXPECT_EQ(material.albedo, LayeredMedium(material.slabs).diffuseReflectance());
+    EXPECT_LT(material.specular, 0.5); // an index below 1.5
+
+    // What the file says itself goes before what follows from the slabs, and everything survives being saved.
+    const Material own =
+        parseMaterial(withSlab(R"({"absorption": [0.1, 0.1, 0.1], "reducedScattering": [1, 1, 1], "thickness": 3})",
+                               R"(, "albedo": [0.5, 0.25, 0.125], "specular": 0.75)"),
+                      "test.json");
+    EXPECT_EQ(own.albedo, (Rgb{0.5, 0.25, 0.125}));
+    EXPECT_EQ(own.specular, 0.75);
+    for (const Material& saved : {material, own}) {
+        EXPECT_EQ(parseMaterial(formatMaterial(saved), "saved.json"), saved);
+        EXPECT_EQ(formatMaterial(saved).find("\"layers\""), std::string::npos);
+    }
+    Material changed = own;
+    changed.layers[0].variance *= 2;
+    EXPECT_THROW(formatMaterial(changed), FileError);
+}
+
+TEST(MaterialFile, RefusesSlabsInOneSentence) {
+    const std::string half = R"("absorption": [0, 0, 0], "reducedScattering": [1, 1, 1])";
+    const std::pair<std::string, std::string> cases[] = {
+        {withSlab(""), "test.json: slabs has 0 entries, must have 1 to 32"},
+        {withSlab("{" + half + "}"), "test.json: slabs[0].thickness is missing"},
+        {withSlab("{" + half + R"(, "thickness": "thick"})"),
+         "test.json: slabs[0].thickness is \"thick\", must be a number of mm or \"infinite\""},
+        {withSlab("{" + half + R"(, "thickness": 0})"),
+         "test.json: slabs[0].thickness is 0, must be in [1e-06, inf] mm"},
+        {withSlab("{" + half + R"(, "thickness": "infinite"}, {)" + half + R"(, "thickness": 1})"),
+         "test.json: slabs[0].thickness is infinite, which only the last may be"},
+        {withSlab(R"({"reducedScattering": [1, 1, 1], "thickness": 1})"),
+         "test.json: slabs[0].absorption is missing, and there is no skin in its place"},
+        {withSlab(R"({"absorption": [0, 0, 0], "thickness": 1})"),
+         "test.json: slabs[0].reducedScattering is missing, and there is no scattering in its place"},
+        {withSlab(R"({"absorption": [0, 0, 0], "scattering": [1, 1, 1], "thickness": 1})"),
+         "test.json: slabs[0].anisotropy is missing, which scattering needs"},
+        {withSlab("{" + half + R"(, "scattering": [1, 1, 1], "thickness": 1})"),
+         "test.json: slabs[0].scattering and slabs[0].reducedScattering are both given, only one may"},
+        {withSlab("{" + half + R"(, "skin": {}, "thickness": 1})"),
+         "test.json: slabs[0].skin and slabs[0].absorption are both given, only one may describe what absorbs"},
+        {withSlab(R"({"skin": {"melanin": 7}, "thickness": 1})"),
+         "test.json: slabs[0].skin.melanin is 7, must be in [0, 1]"},
+        {withSlab(R"({"skin": {"melanine": 0.1}, "thickness": 1})"),
+         "test.json: the key \"slabs[0].skin.melanine\" is unknown"},
+        {withSlab(R"({"absorption": [0, -1, 0], "reducedScattering": [1, 1, 1], "thickness": 1})"),
+         "test.json: slabs[0].absorption[1] is -1, must be in [0, 1000000] 1/mm"},
+        {withSlab("{" + half + R"(, "thickness": 1})", R"(, "meanFreePath": [1, 1, 1])"),
+         "test.json: slabs and meanFreePath are both given, only one may describe the profile"},
+        {withSlab("{" + half + R"(, "thickness": 1})", R"(, "layers": )" + oneLayer),
+         "test.json: slabs and layers are both given, only one may describe the profile"},
+    };
+    for (const auto& [json, sentence] : cases) {
+        EXPECT_EQ(faultOf(json), sentence) << json;
+    }
+}
+
 TEST(MaterialFile, RefusesInOneSentenceNamingFileAndField) {
     std::string many = "[";
     for (int i = 0; i < 33; ++i) {
@@ -90,7 +173,8 @@ TEST(MaterialFile, RefusesInOneSentenceNamingFileAndField) {
          "test.json: albedoUse is \"pre\", must be \"post\" or \"preAndPost\""},
         {withLayers(oneLayer, R"(, "meanFreePath": [1, 1, 1])"),
          "test.json: layers and meanFreePath are both given, only one may describe the profile"},
-        {R"({"name": "x"})", "test.json: layers and meanFreePath are both missing, one must describe the profile"},
+        {R"({"name": "x"})",
+         "test.json: layers, meanFreePath and slabs are all missing, one must describe the profile"},
         {R"({"meanFreePath": [1, 0, 1]})", "test.json: meanFreePath[1] is 0, must be in [1e-06, 10000] mm"},
         {R"({"meanFreePath": [100, 1, 1], "scale": 1000})",
          "test.json: scale·meanFreePath[0] is 100000, must be in [1e-06, 10000] mm"},

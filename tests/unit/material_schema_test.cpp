@@ -26,6 +26,11 @@ Json minimalLayers() {
     return {{"layers", Json::array({{{"weight", {1, 1, 1}}, {"variance", 1}}})}};
 }
 
+Json minimalSlabs() {
+    const Json slab{{"absorption", {0.1, 0.1, 0.1}}, {"reducedScattering", {1, 1, 1}}, {"thickness", 1}};
+    return {{"slabs", Json::array({slab})}};
+}
+
 bool accepts(const Json& material) {
     try {
         parseMaterial(material.dump(), "test");
@@ -50,7 +55,7 @@ void expectRange(const Json& limits, const Json& material, const Json::json_poin
 
 TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, property] : schema().at("properties").items()) {
-        Json material = key == "layers" ? minimalLayers() : minimal();
+        Json material = key == "layers" ? minimalLayers() : key == "slabs" ? minimalSlabs() : minimal();
         if (!material.contains(key)) {
             const std::string type = property.value("type", "");
             const Json value = type == "boolean" ? Json(true) : type == "array" ? Json({1, 1, 1}) : Json("text");
@@ -70,7 +75,7 @@ TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, value] : written.items()) {
         EXPECT_TRUE(schema().at("properties").contains(key)) << key;
     }
-    EXPECT_EQ(written.size() + 4, schema().at("properties").size()); // the absent ones and $schema
+    EXPECT_EQ(written.size() + 5, schema().at("properties").size()); // the absent ones and $schema
 }
 
 TEST(MaterialSchema, HasTheRangesOfTheReader) {
@@ -93,6 +98,36 @@ TEST(MaterialSchema, HasTheRangesOfTheReader) {
     EXPECT_EQ(properties.at("layers").at("minItems"), 1);
 }
 
+TEST(MaterialSchema, HasTheSlabsOfTheReader) {
+    const Json slabs = schema().at("properties").at("slabs");
+    EXPECT_EQ(slabs.at("maxItems"), maxLayers);
+    const Json slab = slabs.at("items").at("properties");
+    Json thin = minimalSlabs();
+    thin["slabs"][0]["refractiveIndex"] = 1;
+    thin["slabs"][0]["anisotropy"] = {0, 0, 0};
+    for (const char* key : {"absorption", "reducedScattering", "anisotropy"}) {
+        expectRange(slab.at(key).at("items"), thin, Json::json_pointer(std::string("/slabs/0/") + key + "/1"));
+    }
+    expectRange(slab.at("refractiveIndex"), thin, Json::json_pointer("/slabs/0/refractiveIndex"));
+    const Json skin = slab.at("skin").at("properties");
+    Json content = {{"slabs", Json::array({{{"skin", Json::object()}, {"thickness", 1}}})}};
+    for (const auto& [key, property] : skin.items()) {
+        content["slabs"][0]["skin"][key] = property.at("default");
+    }
+    for (const auto& [key, property] : skin.items()) {
+        expectRange(property, content, Json::json_pointer("/slabs/0/skin/" + key));
+    }
+
+    // Everything that is written is in the schema, and has the defaults of the reader.
+    const Json bare = {{"slabs", Json::array({{{"skin", Json::object()}, {"thickness", 1}}})}};
+    const Json written = Json::parse(formatMaterial(parseMaterial(bare.dump(), "test"))).at("slabs").at(0);
+    for (const auto& [key, value] : written.items()) {
+        EXPECT_TRUE(slab.contains(key)) << key;
+    }
+    EXPECT_EQ(written.at("skin"), content["slabs"][0]["skin"]);
+    EXPECT_EQ(written.at("refractiveIndex"), slab.at("refractiveIndex").at("default"));
+}
+
 TEST(MaterialSchema, HasTheDefaultsOfTheReader) {
     Json written = Json::parse(formatMaterial(parseMaterial(minimal().dump(), "test")));
     for (const auto& [key, property] : schema().at("properties").items()) {
@@ -103,7 +138,8 @@ TEST(MaterialSchema, HasTheDefaultsOfTheReader) {
 }
 
 TEST(MaterialSchema, AllowsExactlyOneProfile) {
-    const Json expected = Json::parse(R"([{"required": ["layers"]}, {"required": ["meanFreePath"]}])");
+    const Json expected =
+        Json::parse(R"([{"required": ["layers"]}, {"required": ["meanFreePath"]}, {"required": ["slabs"]}])");
     EXPECT_EQ(schema().at("oneOf"), expected);
     Json both = minimalLayers();
     both.update(minimal());

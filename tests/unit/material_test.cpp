@@ -69,7 +69,7 @@ TEST(Material, NamesTheFirstFaultyFieldAndItsValue) {
               }),
               "layers: the blue weights sum to 0, must sum to more than 0");
     EXPECT_EQ(faultOf([](Material& m) { m.layers.clear(); }),
-              "layers and meanFreePath are both missing, one must describe the profile");
+              "layers, meanFreePath and slabs are all missing, one must describe the profile");
     EXPECT_EQ(faultOf([](Material& m) {
                   m.meanFreePath = {1, 1, 1};
               }),
