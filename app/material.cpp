@@ -1,6 +1,9 @@
 // `nacre material`: the presets, what a material does, and whether a material file is right.
 #include "app/command.hpp"
+#include "app/material_fit.hpp"
+#include "app/material_plot.hpp"
 #include "app/material_source.hpp"
+#include "app/rgb_table.hpp"
 #include "nacre/files.hpp"
 #include "nacre/presets.hpp"
 
@@ -33,15 +36,6 @@ void listMaterials(const std::filesystem::path& json) {
     }
 }
 
-std::string row(const std::string& label, const Rgb& values) {
-    std::ostringstream text;
-    text << "  " << std::left << std::setw(34) << label << std::right << std::setprecision(4);
-    for (const double value : values) {
-        text << std::setw(11) << value;
-    }
-    return text.str() + '\n';
-}
-
 template <typename Function> Rgb eachChannel(Function function) {
     return {function(0), function(1), function(2)};
 }
@@ -54,25 +48,25 @@ std::string number(double value) {
 
 std::string describeProfile(const Material& material) {
     const std::unique_ptr<Profile> profile = makeProfile(material);
-    std::string text = row("rms radius, mm", eachChannel([&](int channel) { return profile->rmsRadius(channel); }));
+    std::string text = rgbRow("rms radius, mm", eachChannel([&](int channel) { return profile->rmsRadius(channel); }));
     for (const double share : {0.5, 0.9, 0.99}) {
-        text += row("radius of " + number(share * 100) + " % of the light, mm",
-                    eachChannel([&](int channel) { return profile->inverseCdf(channel, share); }));
+        text += rgbRow("radius of " + number(share * 100) + " % of the light, mm",
+                       eachChannel([&](int channel) { return profile->inverseCdf(channel, share); }));
     }
     for (const double thickness : slabThicknesses) {
-        text += row("through " + number(thickness) + " mm",
-                    eachChannel([&](int channel) { return profile->slabTransmittance(channel, thickness); }));
+        text += rgbRow("through " + number(thickness) + " mm",
+                       eachChannel([&](int channel) { return profile->slabTransmittance(channel, thickness); }));
     }
     return text;
 }
 
 std::string describeLayers(const Material& material) {
     if (material.layers.empty()) {
-        return row("mean free path, mm", material.meanFreePath.value_or(Rgb{}));
+        return rgbRow("mean free path, mm", material.meanFreePath.value_or(Rgb{}));
     }
     std::string text;
     for (const Layer& layer : material.layers) {
-        text += row("layer, variance " + number(layer.variance) + " mm²", layer.weight);
+        text += rgbRow("layer, variance " + number(layer.variance) + " mm²", layer.weight);
     }
     return text;
 }
@@ -89,20 +83,33 @@ std::string describeMaterial(const Material& material) {
          << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost") << ", second surfaces "
          << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness " << material.roughness << ", specular "
          << material.specular << '\n'
-         << "  " << std::setw(34) << "" << std::setw(11) << "red" << std::setw(11) << "green" << std::setw(11) << "blue"
-         << '\n';
-    return text.str() + row("albedo", material.albedo) + describeLayers(material) + describeProfile(material);
+         << rgbHeader();
+    return text.str() + rgbRow("albedo", material.albedo) + describeLayers(material) + describeProfile(material);
 }
 
-void showMaterial(const std::string& nameOrFile, const std::filesystem::path& json) {
-    if (!json.empty()) {
-        checkWritable(json);
+struct ShowOptions {
+    std::string nameOrFile;
+    std::filesystem::path json;
+    std::filesystem::path plot;
+};
+
+void showMaterial(const ShowOptions& options) {
+    if (!options.plot.empty()) {
+        checkPlotName(options.plot);
+        checkWritable(options.plot);
     }
-    const Material material = readMaterial(nameOrFile);
-    if (json.empty()) {
+    if (!options.json.empty()) {
+        checkWritable(options.json);
+    }
+    const Material material = readMaterial(options.nameOrFile);
+    if (!options.plot.empty()) {
+        plotMaterial(material, options.plot);
+    }
+    if (!options.json.empty()) {
+        writeText(options.json, formatMaterial(material));
+    }
+    if (options.json.empty() && options.plot.empty()) {
         std::cout << describeMaterial(material);
-    } else {
-        writeText(json, formatMaterial(material));
     }
 }
 
@@ -122,15 +129,20 @@ void addList(CLI::App& material) {
 }
 
 void addShow(CLI::App& material) {
-    CLI::App* command = material.add_subcommand("show", "Say what a material does, or write it as a material file");
+    CLI::App* command =
+        material.add_subcommand("show", "Say what a material does, draw it, or write it as a material file");
     command->footer(R"(Examples:
   nacre material show skin
-  nacre material show skin --json my-skin.json          to start a material of one's own)");
-    const auto nameOrFile = std::make_shared<std::string>();
-    const auto json = std::make_shared<std::filesystem::path>();
-    command->add_option("MATERIAL", *nameOrFile, "A preset's name or a material file")->required()->type_name("");
-    addJsonOption(*command, *json);
-    command->callback([nameOrFile, json] { showMaterial(*nameOrFile, *json); });
+  nacre material show skin --json my-skin.json          to start a material of one's own
+  nacre material show skin --plot skin.svg               its profile and what slabs of it let through)");
+    const auto options = std::make_shared<ShowOptions>();
+    command->add_option("MATERIAL", options->nameOrFile, "A preset's name or a material file")
+        ->required()
+        ->type_name("");
+    command->add_option("--plot", options->plot, "Draw the profile and the slab transmittance, as .png or .svg")
+        ->type_name("FILE");
+    addJsonOption(*command, options->json);
+    command->callback([options] { showMaterial(*options); });
 }
 
 void addCheck(CLI::App& material) {
@@ -146,16 +158,18 @@ void addCheck(CLI::App& material) {
 } // namespace
 
 void addMaterial(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("material", "List, show and check subsurface materials");
+    CLI::App* command = app.add_subcommand("material", "List, show, check and fit subsurface materials");
     command->require_subcommand(1);
     command->footer(R"(Examples:
   nacre material list
   nacre material show skin --json my-skin.json
   nacre material check my-skin.json
+  nacre material fit my-skin.json
   nacre render bunny.obj --material my-skin.json)");
     addList(*command);
     addShow(*command);
     addCheck(*command);
+    addMaterialFit(*command);
 }
 
 } // namespace nacre::app

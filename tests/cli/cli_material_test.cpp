@@ -64,6 +64,61 @@ TEST_F(MaterialTest, ShowTellsRadiiAndTransmission) {
         << outcome.output;
 }
 
+constexpr const char* skinSlabs = R"([{"skin": {"melanin": 0.03}, "thickness": 0.1},
+    {"skin": {"haemoglobin": 0.02, "water": 0.65}, "thickness": "infinite"}])";
+
+TEST_F(MaterialTest, FitTellsLayersAndErrorAndWritesThem) {
+    const Outcome outcome = run({"material", "fit", "--slabs", skinSlabs, "--json", "fit.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    for (const char* part : {"weight, variance", "largest CDF error", "diffuse reflectance", "diffuse transmittance"}) {
+        EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output;
+    }
+    const nlohmann::json layers = nlohmann::json::parse(readText(folder() / "fit.json"));
+    EXPECT_TRUE(layers.contains("layers"));
+    EXPECT_FALSE(layers.contains("slabs"));
+    EXPECT_EQ(run({"material", "check", "fit.json"}).exitCode, 0);
+
+    // A material file with slabs says the same, and is written as it was.
+    writeText(folder() / "skin.json", std::string(R"({"name": "skin of slabs", "slabs": )") + skinSlabs + "}");
+    EXPECT_EQ(run({"material", "fit", "skin.json", "--json", "-"}).exitCode, 0);
+    EXPECT_EQ(run({"material", "show", "skin.json", "--json", "copy.json"}).exitCode, 0);
+    const nlohmann::json copy = nlohmann::json::parse(readText(folder() / "copy.json"));
+    EXPECT_EQ(copy["slabs"][0]["skin"]["melanin"], 0.03);
+    EXPECT_FALSE(copy.contains("layers"));
+    nacre::test::expectMatchesSchema(readText(folder() / "copy.json"), "material.schema.json");
+    EXPECT_EQ(run({"material", "show", "copy.json", "--json", "-"}).output, readText(folder() / "copy.json"));
+}
+
+TEST_F(MaterialTest, FitOfLayersIsTheLayersAndFewerAreLessExact) {
+    EXPECT_NE(run({"material", "fit", "skin"}).output.find("skin: 6 layers"), std::string::npos);
+    const nlohmann::json four =
+        nlohmann::json::parse(run({"material", "fit", "skin-burley", "--layers", "4", "--json", "-"}).output);
+    EXPECT_LE(four["layers"].size(), 4U);
+    EXPECT_FALSE(four.contains("meanFreePath"));
+}
+
+TEST_F(MaterialTest, FitRefusesWhatItCannotFit) {
+    expectComplaint(run({"material", "fit"}), 2, {"MATERIAL", "--slabs"});
+    expectComplaint(run({"material", "fit", "skin", "--slabs", "[]"}), 2, {"MATERIAL", "--slabs"});
+    expectComplaint(run({"material", "fit", "skin", "--layers", "33"}), 2, {"--layers", "33"});
+    expectComplaint(run({"material", "fit", "--slabs", "[]"}), 1, {"--slabs", "0 entries"});
+    expectComplaint(run({"material", "fit", "--slabs", R"([{"thickness": 1}])", "--json", "fit.json"}), 1,
+                    {"--slabs", "slabs[0].absorption"});
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(MaterialTest, ShowDrawsPicturesOfMaterials) {
+    EXPECT_EQ(run({"material", "show", "skin", "--plot", "skin.svg"}).exitCode, 0);
+    const std::string svg = readText(folder() / "skin.svg");
+    EXPECT_TRUE(svg.starts_with("<?xml")) << svg.substr(0, 40);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    EXPECT_EQ(run({"material", "show", "skin-burley", "--plot", "burley.png"}).exitCode, 0);
+    EXPECT_TRUE(readText(folder() / "burley.png").starts_with("\x89PNG"));
+    expectComplaint(run({"material", "show", "skin", "--plot", "skin.pdf"}), 2, {"skin.pdf", ".png", ".svg"});
+    expectComplaint(run({"material", "show", "skin", "--plot", "missing/skin.png"}), 1, {"missing/skin.png"});
+    EXPECT_EQ(files().size(), 2U);
+}
+
 struct Fault {
     std::string name;
     std::string text;

@@ -138,14 +138,15 @@ TEST_F(UsageTest, HelpOfRenderHasEveryOptionAndExamples) {
 
 TEST_F(UsageTest, HelpOfTheOtherCommands) {
     expectText({"devices", "--help"}, {"--json"});
-    expectText({"material", "--help"}, {"list", "show", "check"});
-    expectText({"material", "show", "--help"}, {"MATERIAL", "--json"});
+    expectText({"material", "--help"}, {"list", "show", "check", "fit"});
+    expectText({"material", "show", "--help"}, {"MATERIAL", "--json", "--plot", ".svg"});
+    expectText({"material", "fit", "--help"}, {"MATERIAL", "--slabs", "--layers", "--json", "skin"});
 }
 
 TEST_F(UsageTest, HelpOfEveryCommandHasExamplesOfIt) {
     for (const std::string& command : std::vector<std::string>{
-             "render", "devices", "material", "material list", "material show", "material check", "bench",
-             "bench thesis", "bench sweep", "bench pareto", "bench diff", "bench report", "bench markdown"}) {
+             "render", "devices", "material", "material list", "material show", "material check", "material fit",
+             "bench", "bench thesis", "bench sweep", "bench pareto", "bench diff", "bench report", "bench markdown"}) {
         std::istringstream words(command);
         std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
         arguments.emplace_back("--help");
