@@ -142,7 +142,7 @@ requires std::is_same_v<std::remove_const_t<T>, Scene>
 void exchange(A& archive, T& scene) {
     archive(scene.name), archive(scene.meshes), archive(scene.textures), archive(scene.surfaces);
     archive(scene.instances), archive(scene.lights), archive(scene.cameras), archive(scene.metersPerUnit);
-    archive(scene.exposure), archive(scene.notes);
+    archive(scene.exposure), archive(scene.inputs), archive(scene.notes);
 }
 
 enum class Outcome : std::uint8_t { Scene, Error };

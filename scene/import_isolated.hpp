@@ -10,11 +10,11 @@ namespace nacre::scene {
 
 /// What the child may use.
 struct ImportLimits {
-    unsigned seconds = 10;            ///< of processor time; three times as many on the clock
+    unsigned seconds = 3;             ///< of processor time; three times as many on the clock
     std::uint64_t bytes = 1ull << 31; ///< of memory on top of what this process has mapped
 };
 
-/// Limits for a file of this size: 10 s and 2 s a MiB; 2 GiB and 64 times the file.
+/// Limits for a file of this size: 3 s and 2 s a MiB; 2 GiB and 64 times the file.
 ImportLimits limitsFor(std::uint64_t fileBytes);
 
 /// read()'s result, from a child process. A SceneError thrown by read() is thrown here; a child that crashes or exceeds

@@ -130,6 +130,8 @@ struct Scene {
     Environment environment;
     double metersPerUnit = 1;
     float exposure = 1;
+    /// Files that were read for it beside the one that was asked for: no output may replace them.
+    std::vector<std::string> inputs;
     /// What an importer had to leave out or simplify, a sentence each, beginning with the file.
     std::vector<std::string> notes;
 };

@@ -2,6 +2,7 @@
 
 #include "nacre/files.hpp"
 #include "scene/assimp/assimp_axes.hpp"
+#include "scene/assimp/assimp_files.hpp"
 #include "scene/assimp/assimp_material.hpp"
 #include "scene/import.hpp"
 #include "scene/import_isolated.hpp"
@@ -58,6 +59,7 @@ public:
         for (const aiCamera* camera : std::span(source_.mCameras, source_.mNumCameras)) {
             addCamera(*camera);
         }
+        scene_.inputs = materials_.inputs();
     }
 
 private:
@@ -240,7 +242,9 @@ private:
 };
 
 Scene importFile(const std::filesystem::path& file) {
+    auto* files = new AssimpFiles(file); // the importer's own
     Assimp::Importer importer;
+    importer.SetIOHandler(files);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* source = importer.ReadFile(file.string(), steps);
     if (source == nullptr) {
@@ -259,6 +263,7 @@ Scene importFile(const std::filesystem::path& file) {
     Scene scene;
     scene.name = file.stem().string();
     AssimpImporter(file, *source, scene).run();
+    std::ranges::copy(files->inputs(), std::back_inserter(scene.inputs));
     return scene;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/assimp/assimp_material.hpp"
 
 #include "image/image_file.hpp"
+#include "scene/named_file.hpp"
 #include "scene/texture.hpp"
 
 #include <algorithm>
@@ -12,18 +13,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A texture's file: where the model says, else its name beside the model, whatever the case of its letters.
+/// A reference without the two slashes with which Blender begins those that are relative to its file.
+std::string withoutBlenderPrefix(const std::string& reference) {
+    return reference.starts_with("//") ? reference.substr(2) : reference;
+}
+
+/// A texture's file: where the model says, else its name beside the model, whatever the case of its letters. Models
+/// carry the paths of the machine they were made on.
 fs::path findTexture(const fs::path& model, std::string reference) {
+    if (fs::path named = tryNamedFile(model, reference); !named.empty()) {
+        return named;
+    }
     std::ranges::replace(reference, '\\', '/');
     const fs::path folder = model.parent_path().empty() ? fs::path(".") : model.parent_path();
-    std::error_code ignored;
-    if (fs::is_regular_file(folder / reference, ignored)) {
-        return folder / reference;
-    }
     const std::string name = fs::path(reference).filename().string();
+    std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-        if (::strcasecmp(entry.path().filename().c_str(), name.c_str()) == 0 && entry.is_regular_file(ignored)) {
-            return entry.path();
+        const std::string candidate = entry.path().filename().string();
+        if (::strcasecmp(candidate.c_str(), name.c_str()) == 0) {
+            return tryNamedFile(model, candidate);
         }
     }
     return {};
@@ -57,14 +65,16 @@ float clamp01(float value) {
 
 } // namespace
 
-Texture AssimpMaterials::load(const std::string& reference, const std::string& field, bool srgb) const {
+Texture AssimpMaterials::load(const std::string& reference, const std::string& field, bool srgb) {
     if (const aiTexture* embedded = source_.GetEmbeddedTexture(reference.c_str())) {
         return decodeEmbedded(*embedded, field, srgb);
     }
-    const fs::path found = findTexture(file_, reference);
+    const std::string named = withoutBlenderPrefix(reference);
+    const fs::path found = findTexture(file_, named);
     if (found.empty()) {
-        throw SceneError(field + " does not exist");
+        throw SceneError(field + " " + faultOfNamedFile(file_, named));
     }
+    inputs_.push_back(found.string());
     return readTexture(found, srgb);
 }
 

@@ -15,15 +15,18 @@ public:
         : file_(file), source_(source), scene_(scene) {}
 
     std::uint32_t surface(unsigned material);
+    /// The texture files that were read.
+    const std::vector<std::string>& inputs() const { return inputs_; }
 
 private:
     std::uint32_t texture(const aiMaterial& material, std::initializer_list<aiTextureType> types, bool srgb);
-    Texture load(const std::string& reference, const std::string& field, bool srgb) const;
+    Texture load(const std::string& reference, const std::string& field, bool srgb);
     void addOpacity(const aiMaterial& material, Surface& surface);
 
     const std::filesystem::path& file_;
     const aiScene& source_;
     Scene& scene_;
+    std::vector<std::string> inputs_;
     std::map<unsigned, std::uint32_t> surfaces_;
     std::map<std::pair<std::string, bool>, std::uint32_t> textures_; ///< by reference, sRGB
 };

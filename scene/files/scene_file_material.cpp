@@ -5,13 +5,13 @@
 #include "scene/surface_material.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace nacre::scene {
 namespace {
 
 /// The index of the material among the model's, to which it is added; `none` for null.
-std::uint32_t addMaterial(const std::filesystem::path& sceneFile, const SceneFileObject& object, const char* key,
-                          const nlohmann::json& value, Scene& model) {
+std::uint32_t addMaterial(const SceneFileObject& object, const char* key, const nlohmann::json& value, Scene& model) {
     if (value.is_null()) {
         return none;
     }
@@ -22,31 +22,30 @@ std::uint32_t addMaterial(const std::filesystem::path& sceneFile, const SceneFil
     if (const Material* preset = value.is_string() ? findPreset(value.get<std::string>()) : nullptr) {
         return addMaterial(model, *preset, where);
     }
-    const auto target =
-        value.is_string() ? sceneFile.parent_path() / value.get<std::string>() : std::filesystem::path();
-    if (!std::filesystem::is_regular_file(target)) {
-        object.refuse(key, "a preset's name, an existing material file, a material or null");
+    constexpr const char* expected = "a preset's name, an existing material file, a material or null";
+    if (!value.is_string()) {
+        object.refuse(key, expected);
     }
+    const auto target = object.namedFile(key, value.get<std::string>(), expected);
+    model.inputs.push_back(target.string());
     return addMaterial(model, loadMaterial(target), where);
 }
 
-void assignByName(const std::filesystem::path& sceneFile, SceneFileObject& object, const nlohmann::json& byName,
-                  Scene& model) {
+void assignByName(SceneFileObject& object, const nlohmann::json& byName, Scene& model) {
     SceneFileObject entries(byName, object.file(), object.fieldOf("materials"));
+    std::multimap<std::string, std::size_t> surfaces;
+    for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
+        surfaces.emplace(model.surfaces[i].name, i);
+    }
     for (const auto& [name, value] : byName.items()) {
-        const std::uint32_t material = addMaterial(sceneFile, entries, name.c_str(), value, model);
-        bool found = false;
-        std::string known;
-        for (Surface& surface : model.surfaces) {
-            known += (known.empty() ? "\"" : ", \"") + surface.name + "\"";
-            if (surface.name == name) {
-                setSurfaceMaterial(model, surface, material);
-                found = true;
-            }
-        }
-        if (!found) {
+        const std::uint32_t material = addMaterial(entries, name.c_str(), value, model);
+        const auto [first, last] = surfaces.equal_range(name);
+        if (first == last) {
             throw SceneError(object.file() + ": " + entries.fieldOf(name) + ": the model has no such surface, only " +
-                             known);
+                             listNames(model.surfaces));
+        }
+        for (auto surface = first; surface != last; ++surface) {
+            setSurfaceMaterial(model, model.surfaces[surface->second], material);
         }
     }
 }
@@ -74,15 +73,15 @@ void readLook(SceneFileObject look, Scene& model) {
 
 } // namespace
 
-void assignMaterials(const std::filesystem::path& sceneFile, SceneFileObject& object, Scene& model) {
+void assignMaterials(SceneFileObject& object, Scene& model) {
     if (const nlohmann::json* material = object.member("material")) {
-        const std::uint32_t index = addMaterial(sceneFile, object, "material", *material, model);
+        const std::uint32_t index = addMaterial(object, "material", *material, model);
         for (Surface& surface : model.surfaces) {
             setSurfaceMaterial(model, surface, index);
         }
     }
     if (const nlohmann::json* byName = object.member("materials")) {
-        assignByName(sceneFile, object, *byName, model);
+        assignByName(object, *byName, model);
     }
     readLook(object.object("surface"), model);
 }

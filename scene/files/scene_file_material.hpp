@@ -6,7 +6,8 @@
 namespace nacre::scene {
 
 /// Reads `material` (for all surfaces), `materials` (by the surface's name) and `surface` (looks) of a model's entry.
-/// A material is a preset's name, a material file relative to the scene file, a material in place, or null for none.
-void assignMaterials(const std::filesystem::path& sceneFile, SceneFileObject& object, Scene& model);
+/// Material files that were read are added to the model's inputs. A material is a preset's name, a material file
+/// relative to the scene file, a material in place, or null for none.
+void assignMaterials(SceneFileObject& object, Scene& model);
 
 } // namespace nacre::scene

@@ -1,6 +1,7 @@
 #include "scene/files/scene_file_object.hpp"
 
 #include "scene/json_text.hpp"
+#include "scene/named_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,18 @@ bool SceneFileObject::has(const char* key) {
 void SceneFileObject::refuse(const char* key, const std::string& expected) const {
     throw SceneError(file_ + ": " + fieldOf(key) + " is " + shorten(json_->value(key, Json())) + ", must be " +
                      expected);
+}
+
+std::filesystem::path SceneFileObject::namedFile(const char* key, const std::string& reference,
+                                                 const std::string& expected) const {
+    const std::filesystem::path owner = file_;
+    std::string slashed = reference;
+    std::ranges::replace(slashed, '\\', '/');
+    std::error_code ignored;
+    if (reference.empty() || !std::filesystem::exists(owner.parent_path() / slashed, ignored)) {
+        refuse(key, expected);
+    }
+    return findNamedFile(owner, reference, file_ + ": " + fieldOf(key));
 }
 
 void SceneFileObject::require(const char* key) {

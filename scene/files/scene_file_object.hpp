@@ -3,10 +3,15 @@
 
 #include "scene/scene.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <span>
 
 namespace nacre::scene {
+
+/// [rad] Angles are in degrees in scene files.
+inline constexpr float degree = std::numbers::pi_v<float> / 180;
 
 /// What a number may be.
 struct NumberRange {
@@ -39,6 +44,10 @@ public:
     /// The objects of an array; empty when the member is missing.
     std::vector<SceneFileObject> objects(const char* key);
 
+    /// The file that the member `key` names, which is its text `reference` (findNamedFile); refuses the member, which
+    /// must be `expected`, where there is no such file.
+    std::filesystem::path namedFile(const char* key, const std::string& reference, const std::string& expected) const;
+
     /// Throws SceneError: the member `key` is missing.
     void require(const char* key);
     /// Throws SceneError: "FILE: FIELD.key is VALUE, must be `expected`".
@@ -47,6 +56,7 @@ public:
     void finish() const;
     std::string fieldOf(const std::string& key) const { return field_.empty() ? key : field_ + "." + key; }
     const std::string& file() const { return file_; }
+    const nlohmann::json& json() const { return *json_; }
 
 private:
     template <int size>
@@ -57,6 +67,16 @@ private:
     std::string field_;
     std::vector<std::string> known_;
 };
+
+/// The names of items, quoted, as a sentence lists them: the first twenty.
+template <typename Item> std::string listNames(const std::vector<Item>& items) {
+    constexpr std::size_t most = 20;
+    std::string result;
+    for (std::size_t i = 0; i < std::min(items.size(), most); ++i) {
+        result += (result.empty() ? "\"" : ", \"") + items[i].name + "\"";
+    }
+    return items.size() > most ? result + " and " + std::to_string(items.size() - most) + " more" : result;
+}
 
 /// JSON text in which no key is given twice; throws SceneError with the line and column of a mistake.
 nlohmann::json parseSceneJson(const std::string& file, std::span<const std::uint8_t> bytes);

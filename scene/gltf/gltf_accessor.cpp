@@ -99,9 +99,25 @@ std::vector<std::uint32_t> readSparseIndices(const GltfFile& file, const tinyglt
     return indices;
 }
 
+/// Most elements of an accessor without a buffer view, which nothing in the file bears out: as many as one with a view
+/// has, beside which it stands.
+std::size_t mostWithoutView(const GltfFile& file) {
+    std::size_t bytes = 0;
+    for (const auto& buffer : file.buffers) {
+        bytes = std::max(bytes, buffer.size());
+    }
+    for (const Bytes& decoded : file.decodedViews) {
+        bytes = std::max(bytes, decoded.size());
+    }
+    std::size_t most = 1024;
+    for (const tinygltf::Accessor& accessor : file.model.accessors) {
+        most = std::max(most, accessor.bufferView >= 0 ? std::min(accessor.count, bytes) : 0);
+    }
+    return std::min(most, maxGltfElements);
+}
+
 void checkCount(const GltfFile& file, const tinygltf::Accessor& accessor, const std::string& name) {
-    // Without a buffer view nothing in the file bears the count out.
-    const std::size_t most = accessor.bufferView >= 0 ? maxGltfElements : maxGltfElements / 16;
+    const std::size_t most = accessor.bufferView >= 0 ? maxGltfElements : mostWithoutView(file);
     if (accessor.count > most) {
         failGltf(file,
                  name + ".count is " + std::to_string(accessor.count) + ", must be at most " + std::to_string(most));
@@ -129,7 +145,7 @@ std::span<const std::uint8_t> viewBytes(const GltfFile& file, int view, const st
         return decoded;
     }
     const std::string name = "bufferViews[" + std::to_string(view) + "]";
-    const Bytes& buffer = elementOf(file, file.buffers, bufferView.buffer, name + ".buffer");
+    const auto buffer = elementOf(file, file.buffers, bufferView.buffer, name + ".buffer");
     return slice(file, buffer, bufferView.byteOffset, bufferView.byteLength, name);
 }
 

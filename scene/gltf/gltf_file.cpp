@@ -1,14 +1,15 @@
 #include "scene/gltf/gltf_file.hpp"
 
-#include "nacre/files.hpp"
 #include "scene/gltf/gltf_draco.hpp"
 #include "scene/gltf/gltf_import.hpp"
 #include "scene/gltf/gltf_material_extensions.hpp"
 #include "scene/gltf/gltf_meshopt.hpp"
 #include "scene/gltf/gltf_types.hpp"
+#include "scene/json_text.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -35,13 +36,6 @@ std::uint32_t wordAt(std::span<const std::uint8_t> bytes, std::size_t offset) {
     std::uint32_t word = 0;
     std::memcpy(&word, bytes.data() + offset, sizeof(word));
     return word;
-}
-
-std::string quoted(std::string text) {
-    if (text.size() > 80) {
-        text = text.substr(0, 77) + "...";
-    }
-    return "\"" + text + "\"";
 }
 
 struct Container {
@@ -140,24 +134,26 @@ const Json* findObject(const Json& parent, const char* key) {
     return found != parent.end() && found->is_object() ? &*found : nullptr;
 }
 
-Bytes loadBuffer(const GltfFile& file, const Json& buffer, const std::string& field,
-                 std::span<const std::uint8_t> binary) {
+std::span<const std::uint8_t> loadBuffer(GltfFile& file, const Json& buffer, const std::string& field,
+                                         std::span<const std::uint8_t> binary) {
     const auto length = buffer.find("byteLength");
     if (length == buffer.end() || !length->is_number_unsigned()) {
         failGltf(file, field + ".byteLength must be a whole number");
     }
     const auto size = length->get<std::uint64_t>();
     const auto uri = buffer.find("uri");
-    Bytes bytes;
+    std::span<const std::uint8_t> bytes;
     if (uri != buffer.end()) {
         if (!uri->is_string()) {
             failGltf(file, field + ".uri must be a string");
         }
-        bytes = readUri(file, uri->get<std::string>(), field + ".uri");
+        const auto text = uri->get<std::string>();
+        bytes = isDataUri(text) ? file.decodedUris.emplace_back(decodeDataUri(file, text, field + ".uri"))
+                                : readUri(file, text, field + ".uri");
     } else if (isMeshoptFallback(buffer)) {
         return {}; // what it would hold is decompressed from other buffers
     } else if (!binary.empty()) {
-        bytes.assign(binary.begin(), binary.end());
+        bytes = binary;
     } else {
         failGltf(file, field + " has no uri and the file no binary chunk");
     }
@@ -165,8 +161,7 @@ Bytes loadBuffer(const GltfFile& file, const Json& buffer, const std::string& fi
         failGltf(file, field + " has " + std::to_string(bytes.size()) + " bytes, but its byteLength is " +
                            std::to_string(size));
     }
-    bytes.resize(size);
-    return bytes;
+    return bytes.first(size);
 }
 
 GltfImage readImage(const GltfFile& file, const Json& image, const std::string& field) {
@@ -175,7 +170,7 @@ GltfImage readImage(const GltfFile& file, const Json& image, const std::string& 
     const auto view = image.find("bufferView");
     if (uri != image.end() && uri->is_string()) {
         result.uri = uri->get<std::string>();
-    } else if (view != image.end() && view->is_number_integer()) {
+    } else if (view != image.end() && isGltfIndex(*view)) {
         result.bufferView = view->get<int>();
     } else {
         failGltf(file, field + " has neither a uri nor a bufferView");
@@ -184,6 +179,18 @@ GltfImage readImage(const GltfFile& file, const Json& image, const std::string& 
         result.name = name->get<std::string>();
     }
     return result;
+}
+
+/// tinygltf makes 32-bit integers of all whole numbers, also of those that do not fit: these stay what they are as
+/// floating-point numbers.
+void keepWideIntegers(Json& value) {
+    if (value.is_structured()) {
+        for (Json& item : value) {
+            keepWideIntegers(item);
+        }
+    } else if (value.is_number_integer() && !(std::abs(value.get<double>()) <= maxGltfIndex)) {
+        value = value.get<double>();
+    }
 }
 
 /// tinygltf demands what glTF leaves out where the matrices are identities.
@@ -257,29 +264,29 @@ GltfKind gltfKind(std::span<const std::uint8_t> bytes) {
     return text.starts_with("1") ? GltfKind::Version1 : GltfKind::Version2;
 }
 
-Bytes readUri(const GltfFile& file, const std::string& uri, const std::string& field) {
-    if (uri.starts_with("data:")) {
-        const std::size_t comma = uri.find(',');
-        Bytes bytes;
-        std::string mimeType;
-        // tinygltf knows a list of media types; the one that is given does not matter here.
-        if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64") ||
-            !tinygltf::DecodeDataURI(&bytes, mimeType, "data:application/octet-stream;base64," + uri.substr(comma + 1),
-                                     0, false)) {
-            failGltf(file, field + " " + quoted(uri) + " is not a base64 data uri");
-        }
-        return bytes;
+bool isDataUri(const std::string& uri) {
+    return uri.starts_with("data:");
+}
+
+Bytes decodeDataUri(const GltfFile& file, const std::string& uri, const std::string& field) {
+    const std::size_t comma = uri.find(',');
+    Bytes bytes;
+    std::string mimeType;
+    // tinygltf knows a list of media types; the one that is given does not matter here.
+    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64") ||
+        !tinygltf::DecodeDataURI(&bytes, mimeType, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0,
+                                 false)) {
+        failGltf(file, field + " " + shorten(uri) + " is not a base64 data uri");
     }
-    const std::filesystem::path target = file.path.parent_path() / decodePercents(uri);
-    if (!std::filesystem::exists(target)) {
-        failGltf(file, field + " " + quoted(uri) + " does not exist");
-    }
-    return readFile(target);
+    return bytes;
+}
+
+std::span<const std::uint8_t> readUri(const GltfFile& file, const std::string& uri, const std::string& field) {
+    return file.named->read(decodePercents(uri), file.path.string() + ": " + field);
 }
 
 GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-    GltfFile file;
-    file.path = path;
+    GltfFile file(path);
     const Container container = openContainer(file, bytes);
     Json document = parseJson(file, container.json);
     const Json* asset = findObject(document, "asset");
@@ -293,12 +300,14 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
         const auto binary = i == 0 ? container.binary : std::span<const std::uint8_t>();
         file.buffers.push_back(loadBuffer(file, buffers[i], "buffers[" + std::to_string(i) + "]", binary));
     }
+    file.budget->addInput(bytes.size() + file.named->totalBytes());
     const std::vector<Json> images = takeObjects(file, document, "images");
     for (std::size_t i = 0; i < images.size(); ++i) {
         file.images.push_back(readImage(file, images[i], "images[" + std::to_string(i) + "]"));
     }
     document.erase("animations");
     checkGltfTypes(file, document);
+    keepWideIntegers(document);
     dropDracoIndices(document);
     completeSkins(document);
     parseModel(file, document);

@@ -3,8 +3,11 @@
 // EXT_meshopt_compression.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/load_budget.hpp"
+#include "scene/named_file.hpp"
 
+#include <deque>
+#include <memory>
 #include <span>
 #include <tiny_gltf.h>
 
@@ -24,14 +27,21 @@ struct GltfImage {
 };
 
 struct GltfFile {
+    explicit GltfFile(const std::filesystem::path& file)
+        : path(file), named(std::make_shared<NamedFiles>(file)), budget(std::make_shared<LoadBudget>(file.string())) {}
+
     std::filesystem::path path;
     tinygltf::Model model; ///< without buffers and images
-    std::vector<Bytes> buffers;
+    std::vector<std::span<const std::uint8_t>> buffers;
+    std::deque<Bytes> decodedUris;     ///< what buffers of data uris refer to
+    std::shared_ptr<NamedFiles> named; ///< what other buffers and images refer to
+    std::shared_ptr<LoadBudget> budget;
     std::vector<Bytes> decodedViews; ///< per buffer view; empty unless EXT_meshopt_compression
     std::vector<GltfImage> images;
 };
 
-/// The container, the structure, the buffers and the compressed buffer views.
+/// The container, the structure, the buffers and the compressed buffer views. `bytes` have to stay where they are for
+/// as long as the result is used.
 GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 /// Throws SceneError: "FILE: what".
@@ -53,8 +63,11 @@ std::span<const std::uint8_t> slice(const GltfFile& file, std::span<const std::u
 /// The bytes of a buffer view, decompressed.
 std::span<const std::uint8_t> viewBytes(const GltfFile& file, int view, const std::string& field);
 
-/// The bytes behind a uri: a data uri, or a file beside the model.
-Bytes readUri(const GltfFile& file, const std::string& uri, const std::string& field);
+bool isDataUri(const std::string& uri);
+/// The bytes in a data uri.
+Bytes decodeDataUri(const GltfFile& file, const std::string& uri, const std::string& field);
+/// The bytes of the file beside the model, or below, that any other uri stands for. Read once.
+std::span<const std::uint8_t> readUri(const GltfFile& file, const std::string& uri, const std::string& field);
 
 /// An accessor's elements as floats, normalised integers mapped to [0, 1] or [-1, 1]; `components` is what its type
 /// must have (0: any). Sparse accessors are applied.

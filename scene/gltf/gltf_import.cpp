@@ -173,6 +173,7 @@ private:
         if (read->indices.empty()) {
             return none;
         }
+        file_.budget->charge(read->vertexCount * sizeof(Vertex) + read->indices.size() * sizeof(read->indices[0]));
         applyMorphTargets(file_, source.mesh, primitive, weights, *read);
         if (source.skin >= 0) {
             applySkin(file_, source.skin, transforms_, *read);
@@ -222,6 +223,7 @@ Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> 
     Scene scene;
     scene.name = path.stem().string();
     GltfImporter(file, scene).run();
+    scene.inputs = file.named->paths();
     return scene;
 }
 

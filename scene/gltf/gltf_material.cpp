@@ -188,21 +188,30 @@ std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
         repeat = elementOf(file_, file_.model.samplers, source.sampler, textureField + ".sampler").wrapS !=
                  TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     }
-    const auto key = std::tuple(source.source, srgb, repeat);
+    const std::string field = "images[" + std::to_string(source.source) + "]";
+    // Images that name the same file or bytes are one.
+    const std::string place = image.bufferView >= 0  ? "bufferViews[" + std::to_string(image.bufferView) + "]"
+                              : isDataUri(image.uri) ? field
+                                                     : image.uri;
+    const auto key = std::tuple(place, srgb, repeat);
     if (const auto found = textures_.find(key); found != textures_.end()) {
         return found->second;
     }
-    const std::string field = "images[" + std::to_string(source.source) + "]";
-    Bytes external;
+    const std::uint64_t readBefore = file_.named->totalBytes();
+    Bytes decoded;
     std::span<const std::uint8_t> bytes;
     if (image.bufferView >= 0) {
         bytes = viewBytes(file_, image.bufferView, field + ".bufferView");
+    } else if (isDataUri(image.uri)) {
+        bytes = decoded = decodeDataUri(file_, image.uri, field + ".uri");
     } else {
-        bytes = external = readUri(file_, image.uri, field + ".uri");
+        bytes = readUri(file_, image.uri, field + ".uri");
     }
+    file_.budget->addInput(file_.named->totalBytes() - readBefore);
     Texture texture = decodeTexture(bytes, file_.path.string() + ": " + field, srgb);
     texture.name = image.name.empty() ? field : image.name;
     texture.repeat = repeat;
+    file_.budget->charge(texture);
     scene_.textures.push_back(std::move(texture));
     return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
 }

@@ -30,7 +30,7 @@ private:
     Scene& scene_;
     std::map<int, std::uint32_t> surfaces_;
     std::vector<int> texCoords_;
-    std::map<std::tuple<int, bool, bool>, std::uint32_t> textures_; ///< by image, sRGB, repeat
+    std::map<std::tuple<std::string, bool, bool>, std::uint32_t> textures_; ///< by where it is, sRGB, repeat
 };
 
 } // namespace nacre::scene

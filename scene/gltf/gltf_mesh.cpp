@@ -17,10 +17,12 @@ const tinygltf::Primitive& primitiveOf(const GltfFile& file, int mesh, std::size
     return file.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
 }
 
-/// The attributes that are read; others (colours, custom ones) are not looked at.
+/// The attributes that are read; others (colours, custom ones) are not looked at. Of sets of texture coordinates there
+/// are at most ten, more than anybody has.
 bool isRead(const std::string& semantic) {
-    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" ||
-           semantic.starts_with("TEXCOORD_") || semantic.starts_with("JOINTS_") || semantic.starts_with("WEIGHTS_");
+    constexpr std::string_view set = "TEXCOORD_";
+    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" || semantic == "JOINTS_0" ||
+           semantic == "WEIGHTS_0" || (semantic.starts_with(set) && semantic.size() == set.size() + 1);
 }
 
 void checkCounts(const GltfPrimitive& primitive) {

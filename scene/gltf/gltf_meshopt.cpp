@@ -32,7 +32,7 @@ Bytes decodeMeshopt(const GltfFile& file, const Value& extension, const std::str
     const std::uint64_t stride = number("byteStride");
     const std::string mode = textOf(extension, "mode", "");
     const std::string filter = textOf(extension, "filter", "NONE");
-    const auto& buffer = elementOf(file, file.buffers, static_cast<int>(number("buffer")), field + ".buffer");
+    const auto buffer = elementOf(file, file.buffers, static_cast<int>(number("buffer")), field + ".buffer");
     const auto source = slice(file, buffer, number("byteOffset"), number("byteLength"), field);
     if (stride == 0 || stride > 256 || count > maxGltfViewBytes / stride) {
         failGltf(file, field + " has " + std::to_string(count) + " elements of " + std::to_string(stride) +
@@ -45,6 +45,7 @@ Bytes decodeMeshopt(const GltfFile& file, const Value& extension, const std::str
         failGltf(file, field + ".filter \"" + filter + "\" does not go with mode \"" + mode + "\" and byteStride " +
                            std::to_string(stride));
     }
+    file.budget->charge(count * stride);
     Bytes result(count * stride);
     int error = -1;
     if (mode == "ATTRIBUTES" && stride % 4 == 0) {
@@ -83,8 +84,8 @@ void decodeMeshoptViews(GltfFile& file) {
         const auto& extensions = file.model.bufferViews[i].extensions;
         const auto found = extensions.find(meshoptExtension);
         if (found != extensions.end() && found->second.IsObject()) {
-            file.decodedViews[i] = decodeMeshopt(file, found->second,
-                                                 "bufferViews[" + std::to_string(i) + "].extensions." + meshoptExtension);
+            file.decodedViews[i] = decodeMeshopt(
+                file, found->second, "bufferViews[" + std::to_string(i) + "].extensions." + meshoptExtension);
         }
     }
 }

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-enum class Type { Index, Number, Boolean, Text, Object, Indices, Numbers };
+enum class Type { Index, Number, Boolean, Text, Object, Indices, Numbers, NamedIndices, ListOfNamedIndices };
 
 /// What a member must be where it is there; `member` is a JSON pointer.
 struct Field {
@@ -23,8 +23,12 @@ constexpr std::array nodeFields{Field{"/mesh", Type::Index},          Field{"/ca
                                 Field{"/matrix", Type::Numbers},      Field{"/rotation", Type::Numbers},
                                 Field{"/translation", Type::Numbers}, Field{"/scale", Type::Numbers},
                                 Field{"/weights", Type::Numbers},     Field{"/extensions", Type::Object}};
-constexpr std::array primitiveFields{Field{"/indices", Type::Index}, Field{"/material", Type::Index},
-                                     Field{"/mode", Type::Index}, Field{"/extensions", Type::Object}};
+constexpr std::array primitiveFields{Field{"/attributes", Type::NamedIndices},
+                                     Field{"/targets", Type::ListOfNamedIndices},
+                                     Field{"/indices", Type::Index},
+                                     Field{"/material", Type::Index},
+                                     Field{"/mode", Type::Index},
+                                     Field{"/extensions", Type::Object}};
 constexpr std::array materialFields{Field{"/pbrMetallicRoughness", Type::Object},
                                     Field{"/pbrMetallicRoughness/baseColorFactor", Type::Numbers},
                                     Field{"/pbrMetallicRoughness/baseColorTexture", Type::Object},
@@ -41,9 +45,22 @@ constexpr std::array materialFields{Field{"/pbrMetallicRoughness", Type::Object}
                                     Field{"/alphaCutoff", Type::Number},
                                     Field{"/doubleSided", Type::Boolean},
                                     Field{"/extensions", Type::Object}};
-constexpr std::array accessorFields{Field{"/bufferView", Type::Index}, Field{"/byteOffset", Type::Index},
-                                    Field{"/normalized", Type::Boolean}, Field{"/sparse", Type::Object}};
-constexpr std::array viewFields{Field{"/byteOffset", Type::Index}, Field{"/byteStride", Type::Index},
+constexpr std::array accessorFields{Field{"/bufferView", Type::Index},
+                                    Field{"/byteOffset", Type::Index},
+                                    Field{"/componentType", Type::Index},
+                                    Field{"/count", Type::Index},
+                                    Field{"/normalized", Type::Boolean},
+                                    Field{"/sparse", Type::Object},
+                                    Field{"/sparse/count", Type::Index},
+                                    Field{"/sparse/indices", Type::Object},
+                                    Field{"/sparse/indices/bufferView", Type::Index},
+                                    Field{"/sparse/indices/byteOffset", Type::Index},
+                                    Field{"/sparse/indices/componentType", Type::Index},
+                                    Field{"/sparse/values", Type::Object},
+                                    Field{"/sparse/values/bufferView", Type::Index},
+                                    Field{"/sparse/values/byteOffset", Type::Index}};
+constexpr std::array viewFields{Field{"/buffer", Type::Index}, Field{"/byteOffset", Type::Index},
+                                Field{"/byteLength", Type::Index}, Field{"/byteStride", Type::Index},
                                 Field{"/extensions", Type::Object}};
 constexpr std::array textureFields{Field{"/source", Type::Index}, Field{"/sampler", Type::Index}};
 constexpr std::array samplerFields{Field{"/wrapS", Type::Index}, Field{"/wrapT", Type::Index}};
@@ -59,14 +76,14 @@ bool isNumber(const Json& value) {
     return value.is_number();
 }
 
-bool isIndex(const Json& value) {
-    return value.is_number_unsigned();
+bool areNamedIndices(const Json& value) {
+    return value.is_object() && std::ranges::all_of(value, isGltfIndex);
 }
 
 bool hasType(const Json& value, Type type) {
     switch (type) {
     case Type::Index:
-        return isIndex(value);
+        return isGltfIndex(value);
     case Type::Number:
         return isNumber(value);
     case Type::Boolean:
@@ -76,21 +93,27 @@ bool hasType(const Json& value, Type type) {
     case Type::Object:
         return value.is_object();
     case Type::Indices:
-        return value.is_array() && std::ranges::all_of(value, isIndex);
+        return value.is_array() && std::ranges::all_of(value, isGltfIndex);
     case Type::Numbers:
         return value.is_array() && std::ranges::all_of(value, isNumber);
+    case Type::NamedIndices:
+        return areNamedIndices(value);
+    case Type::ListOfNamedIndices:
+        return value.is_array() && std::ranges::all_of(value, areNamedIndices);
     }
     return false;
 }
 
 const char* describe(Type type) {
-    constexpr std::array texts{"a whole number, 0 or more",
+    constexpr std::array texts{"a whole number, 0 or more and below 2^31",
                                "a number",
                                "true or false",
                                "a string",
                                "an object",
-                               "an array of whole numbers, 0 or more",
-                               "an array of numbers"};
+                               "an array of whole numbers, 0 or more and below 2^31",
+                               "an array of numbers",
+                               "an object of whole numbers, 0 or more and below 2^31",
+                               "an array of objects of whole numbers, 0 or more and below 2^31"};
     return texts[static_cast<std::size_t>(type)];
 }
 
@@ -121,6 +144,10 @@ void checkAll(const GltfFile& file, const Json& parent, const std::string& key, 
 }
 
 } // namespace
+
+bool isGltfIndex(const Json& value) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= maxGltfIndex;
+}
 
 void checkGltfTypes(const GltfFile& file, const Json& document) {
     check(file, document, "", std::array{Field{"/scene", Type::Index}});

@@ -183,6 +183,49 @@ TEST_F(SceneFile, NamesTheFieldThatIsWrong) {
     }
 }
 
+TEST_F(SceneFile, NamesOnlyFilesBesideItOrBelow) {
+    fs::create_directories(folder / "inner");
+    fs::copy_file(folder / "triangle.obj", folder / "inner/own.obj");
+    const auto errorInside = [&](const std::string& pointer, const std::string& reference) {
+        Json json = Json::parse(R"({"models": [{"model": "own.obj"}], "environment": {}})");
+        json[Json::json_pointer(pointer)] = reference;
+        std::ofstream(folder / "inner/scene.json") << json.dump();
+        try {
+            load(folder / "inner/scene.json");
+        } catch (const SceneError& failure) {
+            return std::string(failure.what());
+        }
+        return std::string();
+    };
+    const std::pair<const char*, const char*> fields[] = {
+        {"/models/0/model", "triangle.obj"}, {"/models/0/material", "soap.json"}, {"/environment/image", "sky.hdr"}};
+    for (const auto& [pointer, name] : fields) {
+        for (const std::string up : {"../", "..\\", "./../"}) {
+            EXPECT_NE(errorInside(pointer, up + name).find("lies outside the folder"), std::string::npos)
+                << pointer << ": " << errorInside(pointer, up + name);
+        }
+        EXPECT_NE(errorInside(pointer, (folder / name).string()).find("not a path relative"), std::string::npos);
+        EXPECT_NE(errorInside(pointer, std::string(5000, 'x')).find("must be "), std::string::npos);
+    }
+}
+
+TEST_F(SceneFile, SharesWhatLooksTheSame) {
+    Json json = minimal();
+    for (int i = 0; i < 1000; ++i) {
+        json["models"].push_back({{"model", "triangle.obj"}, {"name", std::to_string(i)}, {"translate", {i, 0, 0}}});
+    }
+    json["models"].push_back({{"model", "triangle.obj"}, {"material", "skin"}});
+    const Scene scene = read(json);
+    ASSERT_EQ(scene.instances.size(), 1002u);
+    EXPECT_EQ(scene.meshes.size(), 2u); // with and without skin
+    EXPECT_EQ(scene.instances[1000].name, "999/" + scene.instances[0].name);
+    EXPECT_EQ(scene.instances[1000].mesh, scene.instances[0].mesh);
+    EXPECT_EQ(scene.instances[1000].transform[3], scene.instances[0].transform[3] + glm::vec4(999, 0, 0, 0));
+    EXPECT_EQ(scene.surfaces.at(scene.meshes.at(scene.instances[1001].mesh).surface).material, 0u);
+    json["models"][500]["turn"] = 1; // an unknown key is found in every entry
+    EXPECT_NE(error(json).find("models[500].turn"), std::string::npos);
+}
+
 TEST_F(SceneFile, RefusesWhatIsNotItsJson) {
     EXPECT_NE(error(std::string("{\"models\": [\n{\"model\": NaN}]}")).find("is not valid JSON: parse error at line 2"),
               std::string::npos);

@@ -1,0 +1,29 @@
+// The files that Assimp opens.
+#pragma once
+
+#include "scene/named_file.hpp"
+
+#include <assimp/DefaultIOSystem.h>
+
+namespace nacre::scene {
+
+/// Lets Assimp read the model and what the model may name (`findNamedFile`): anything else is not there.
+class AssimpFiles : public Assimp::DefaultIOSystem {
+public:
+    explicit AssimpFiles(std::filesystem::path model) : model_(std::move(model)) {}
+
+    bool Exists(const char* file) const override;
+    Assimp::IOStream* Open(const char* file, const char* mode) override;
+
+    /// What was opened, apart from the model.
+    const std::vector<std::string>& inputs() const { return inputs_; }
+
+private:
+    /// The path to open, empty for none.
+    std::filesystem::path allowed(const char* file) const;
+
+    std::filesystem::path model_;
+    std::vector<std::string> inputs_;
+};
+
+} // namespace nacre::scene
