@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -52,6 +53,31 @@ void checkWritable(const std::filesystem::path& file) {
     }
     close(descriptor);
     unlink(probe.c_str());
+}
+
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
+    std::error_code error;
+    if (std::filesystem::equivalent(one, other, error)) {
+        return true;
+    }
+    const auto place = [](const std::filesystem::path& file, std::error_code& fault) {
+        const std::filesystem::path whole = std::filesystem::absolute(file, fault);
+        return fault ? whole : std::filesystem::weakly_canonical(whole, fault);
+    };
+    std::error_code oneFault;
+    std::error_code otherFault;
+    return place(one, oneFault) == place(other, otherFault) && !oneFault && !otherFault;
+}
+
+void requireDistinctFiles(std::vector<std::filesystem::path> files) {
+    std::erase_if(files, [](const auto& file) { return file.empty() || file == standardOutput; });
+    for (auto file = files.begin(); file != files.end(); ++file) {
+        const auto twin =
+            std::find_if(files.begin(), file, [&](const auto& other) { return isSameFile(*file, other); });
+        if (twin != file) {
+            throw UsageError("the same file is given twice: '" + twin->string() + "' and '" + file->string() + "'");
+        }
+    }
 }
 
 void writeText(const std::filesystem::path& file, std::string_view text) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -29,6 +30,13 @@ void addBench(CLI::App& app);
 /// Throws std::runtime_error, naming the file, where `file` cannot be written: its folder is missing or not writable,
 /// or it is a folder itself. "-" is standard output. Leaves nothing behind.
 void checkWritable(const std::filesystem::path& file);
+
+/// Whether both names lead to one file, if need be through links.
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other);
+
+/// Throws UsageError where two of the files are the same, so that no output replaces an input or another output. Empty
+/// names and "-" are not looked at.
+void requireDistinctFiles(std::vector<std::filesystem::path> files);
 
 /// Writes `text` to `file`, whole or not at all; "-" is standard output.
 void writeText(const std::filesystem::path& file, std::string_view text);

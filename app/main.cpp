@@ -1,10 +1,11 @@
 // The command `nacre`: parses, runs one subcommand, and turns what went wrong into one sentence and an exit code.
 #include "app/command.hpp"
+#include "app/terminal_text.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -23,10 +24,14 @@ constexpr const char* examples = R"(Examples:
   nacre devices                                         what there is to render on
 `nacre COMMAND --help` tells the rest.)";
 
-int complain(std::string sentence, int exitCode) {
-    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-    std::cerr << "nacre: " << sentence << '\n';
+int complain(const std::string& sentence, int exitCode) {
+    std::cerr << "nacre: " << nacre::app::printable(sentence) << '\n';
     return exitCode;
+}
+
+/// What the standard library says of files in its own words, as a sentence.
+std::string sentenceOf(const std::filesystem::filesystem_error& error) {
+    return error.path1().string() + ": " + error.code().message();
 }
 
 /// "nacre render", for the hint where to read on.
@@ -89,6 +94,8 @@ int main(int argumentCount, char** arguments) {
         return complain(error.what(), wrongUsage);
     } catch (const std::bad_alloc&) {
         return complain("there is not enough memory for this", failure);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return complain(sentenceOf(error), failure);
     } catch (const std::exception& error) {
         return complain(error.what(), failure);
     }

@@ -4,6 +4,7 @@
 #include "app/material_plot.hpp"
 #include "app/material_source.hpp"
 #include "app/rgb_table.hpp"
+#include "app/terminal_text.hpp"
 #include "nacre/files.hpp"
 #include "nacre/presets.hpp"
 
@@ -77,7 +78,7 @@ std::string describeTransmission(const Material& material) {
 
 std::string describeMaterial(const Material& material) {
     std::ostringstream text;
-    text << material.name << ": " << material.description << '\n'
+    text << printable(material.name) << ": " << printable(material.description) << '\n'
          << "  strength " << material.strength << ", translucency " << material.translucency
          << describeTransmission(material) << ", scale " << material.scale << ", albedo use "
          << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost") << ", second surfaces "
@@ -94,6 +95,7 @@ struct ShowOptions {
 };
 
 void showMaterial(const ShowOptions& options) {
+    requireDistinctFiles({materialFile(options.nameOrFile), options.plot, options.json});
     if (!options.plot.empty()) {
         checkPlotName(options.plot);
         checkWritable(options.plot);
@@ -116,7 +118,7 @@ void showMaterial(const ShowOptions& options) {
 void checkMaterials(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) {
         const Material material = loadMaterial(file);
-        std::cout << file.string() << ": '" << material.name << "' is a valid material\n";
+        std::cout << file.string() << ": '" << printable(material.name) << "' is a valid material\n";
     }
 }
 

@@ -4,6 +4,7 @@
 #include "app/command.hpp"
 #include "app/material_source.hpp"
 #include "app/rgb_table.hpp"
+#include "app/terminal_text.hpp"
 #include "nacre/files.hpp"
 #include "nacre/gaussian.hpp"
 #include "nacre/layering.hpp"
@@ -57,7 +58,7 @@ Fit fitMaterial(const Material& material, int layerCount) {
 
 std::string describe(const Material& material, const Fit& fit) {
     std::ostringstream text;
-    text << material.name << ": " << fit.layers.size() << " layers\n" << rgbHeader();
+    text << printable(material.name) << ": " << fit.layers.size() << " layers\n" << rgbHeader();
     for (const Layer& layer : fit.layers) {
         std::ostringstream label;
         label << "weight, variance " << std::setprecision(6) << layer.variance << " mm²";
@@ -84,6 +85,7 @@ void fit(const FitOptions& options) {
         throw UsageError(options.slabs.empty() ? "MATERIAL or --slabs is needed"
                                                : "MATERIAL and --slabs exclude each other");
     }
+    requireDistinctFiles({materialFile(options.nameOrFile), options.json});
     requireRange(options.layers, 1, maxLayers, "--layers");
     if (!options.json.empty()) {
         checkWritable(options.json);

@@ -3,6 +3,7 @@
 
 #include "nacre/material.hpp"
 
+#include <filesystem>
 #include <string>
 
 namespace nacre::app {
@@ -10,5 +11,8 @@ namespace nacre::app {
 /// The preset of that name, else the material file. Throws UsageError when the text is neither a preset's name nor
 /// looks like a file's, and what the material reader throws otherwise.
 Material readMaterial(const std::string& nameOrFile);
+
+/// The file that readMaterial reads; empty for a preset.
+std::filesystem::path materialFile(const std::string& nameOrFile);
 
 } // namespace nacre::app

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <iterator>
 
 namespace nacre::app {
 
@@ -30,6 +31,21 @@ void checkOutputs(const RenderOptions& options) {
     }
     if (!options.json.empty()) {
         checkWritable(options.json);
+    }
+}
+
+/// No output may replace what the scene is made of, however deep a file is named.
+void requireInputsKept(const RenderOptions& options, const scene::Scene& scene) {
+    std::vector<std::filesystem::path> outputs{options.output, options.json};
+    std::ranges::transform(options.aovs, std::back_inserter(outputs), &AovOutput::file);
+    std::erase_if(outputs, [](const auto& file) { return file.empty() || file == "-"; });
+    for (const std::string& input : scene.inputs) {
+        for (const std::filesystem::path& output : outputs) {
+            if (isSameFile(input, output)) {
+                throw std::runtime_error(output.string() + ": cannot be written: " + sceneName(options) +
+                                         " is made of this file");
+            }
+        }
     }
 }
 
@@ -56,6 +72,7 @@ void render(const RenderOptions& options) {
         const Progress progress("loading " + sceneName(options));
         return makeScene(options);
     }();
+    requireInputsKept(options, scene);
     const scene::Camera camera = makeCamera(options, scene);
     renderer::FrameReport frame;
     {

@@ -1,6 +1,7 @@
 #include "app/render_options.hpp"
 
 #include "app/command.hpp"
+#include "app/material_source.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -99,30 +100,12 @@ std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& 
     return point;
 }
 
-/// Whether both names lead to one file, if need be through links.
-bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
-    std::error_code error;
-    if (std::filesystem::equivalent(one, other, error)) {
-        return true;
-    }
-    const auto place = [&](const std::filesystem::path& file) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
-    };
-    return place(one) == place(other) && !error;
-}
-
 /// No output may replace another one or the input.
-void requireDistinctFiles(const RenderOptions& options) {
-    std::vector<std::filesystem::path> files{options.input, options.material, options.output, options.json};
+void requireDistinct(const RenderOptions& options) {
+    std::vector<std::filesystem::path> files{options.input, materialFile(options.material), options.output,
+                                             options.json};
     std::ranges::transform(options.aovs, std::back_inserter(files), &AovOutput::file);
-    std::erase(files, std::filesystem::path());
-    for (auto file = files.begin(); file != files.end(); ++file) {
-        const auto twin =
-            std::find_if(files.begin(), file, [&](const auto& other) { return isSameFile(*file, other); });
-        if (twin != file) {
-            throw UsageError("the same file is given twice: '" + twin->string() + "' and '" + file->string() + "'");
-        }
-    }
+    requireDistinctFiles(std::move(files));
 }
 
 } // namespace
@@ -223,7 +206,7 @@ RenderOptions RenderOptionParser::finish() const {
     std::ranges::transform(aovs_, std::back_inserter(options.aovs), parseAov);
     options.settings.thickness =
         std::ranges::any_of(options.aovs, [](const AovOutput& aov) { return aov.output == Output::Thickness; });
-    requireDistinctFiles(options);
+    requireDistinct(options);
     return options;
 }
 

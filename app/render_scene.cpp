@@ -2,6 +2,7 @@
 
 #include "app/command.hpp"
 #include "app/material_source.hpp"
+#include "app/terminal_text.hpp"
 #include "scene/default_view.hpp"
 #include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
@@ -14,6 +15,7 @@
 #include <iostream>
 #include <iterator>
 #include <set>
+#include <span>
 
 namespace nacre::app {
 
@@ -71,11 +73,13 @@ std::vector<Light> marked(const std::vector<Light>& lights, const std::vector<bo
 }
 
 template <typename Item> std::string listNames(const std::vector<Item>& items) {
+    constexpr std::size_t most = 20;
     std::string result;
-    for (const Item& item : items) {
+    for (const Item& item : std::span(items).first(std::min(items.size(), most))) {
         result += (result.empty() ? "'" : ", '") + item.name + "'";
     }
-    return result.empty() ? "none" : result;
+    const std::string more = items.size() > most ? " and " + std::to_string(items.size() - most) + " more" : "";
+    return result.empty() ? "none" : result + more;
 }
 
 std::optional<std::size_t> parseIndex(const std::string& text) {
@@ -141,7 +145,7 @@ Scene makeScene(const RenderOptions& options) {
     }
     Scene scene = options.input.empty() ? scene::makeGallery() : scene::load(options.input);
     for (const std::string& note : std::set(scene.notes.begin(), scene.notes.end())) {
-        std::cerr << "nacre: note: " << note << '\n';
+        std::cerr << "nacre: note: " << printable(note) << '\n';
     }
     if (material) {
         scene::assignMaterial(scene, *material);
