@@ -4,7 +4,7 @@
 
 #include "nacre/fit.hpp"
 #include "nacre/material.hpp"
-#include "nacre/slab.hpp"
+#include "nacre/slab_stack.hpp"
 
 namespace nacre {
 

@@ -1,7 +1,7 @@
 // A material: the layers light scatters through, and how the effect uses them.
 #pragma once
 
-#include "nacre/slab.hpp"
+#include "nacre/slab_stack.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "nacre/slab.hpp"
+#include "nacre/slab_stack.hpp"
 
 #include "fault.hpp"
 
