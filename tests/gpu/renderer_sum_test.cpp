@@ -3,7 +3,7 @@
 
 #include "image/metrics.hpp"
 #include "nacre/presets.hpp"
-#include "scene/gallery.hpp"
+#include "scene/gallery/gallery.hpp"
 
 #include <algorithm>
 #include <array>
