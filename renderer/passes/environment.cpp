@@ -4,6 +4,7 @@
 
 #include "environment_reflectance_comp.spv.h"
 #include "environment_specular_comp.spv.h"
+#include "scene/sky.hpp"
 
 #include <glm/gtc/packing.hpp>
 
@@ -15,7 +16,6 @@
 namespace nacre::renderer {
 namespace {
 
-constexpr std::uint32_t skyHeight = 128;      ///< px; the gradient is smooth
 constexpr std::uint32_t specularSize = 128;   ///< px, side of the sharpest cube level
 constexpr std::uint32_t reflectanceSize = 64; ///< px
 constexpr float largestHalf = 65504;
@@ -37,11 +37,6 @@ Harmonics harmonics(const glm::dvec3& n) {
             0.546274 * (n.x * n.x - n.y * n.y)};
 }
 
-float smoothStep(float from, float to, float x) {
-    const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-    return t * t * (3 - 2 * t);
-}
-
 vk::raii::Sampler makeSkySampler(const Gpu& gpu, vk::SamplerAddressMode longitude) {
     return {gpu.device,
             {.magFilter = vk::Filter::eLinear,
@@ -54,19 +49,6 @@ vk::raii::Sampler makeSkySampler(const Gpu& gpu, vk::SamplerAddressMode longitud
 }
 
 } // namespace
-
-nacre::Image makeSky(const scene::Environment& environment) {
-    nacre::Image image{2 * skyHeight, skyHeight, {"R", "G", "B", "A"}, {}};
-    for (std::uint32_t row = 0; row < image.height; ++row) {
-        const float elevation = std::cos(std::numbers::pi_v<float> * (static_cast<float>(row) + 0.5f) / skyHeight);
-        const glm::vec3 above = glm::mix(environment.horizon, environment.zenith, std::sqrt(std::max(elevation, 0.0f)));
-        const glm::vec3 color = glm::mix(environment.ground, above, smoothStep(-0.15f, 0.05f, elevation));
-        for (std::uint32_t column = 0; column < image.width; ++column) {
-            image.values.insert(image.values.end(), {color.r, color.g, color.b, 1.0f});
-        }
-    }
-    return image;
-}
 
 std::array<glm::vec3, 9> irradianceHarmonics(const nacre::Image& image) {
     std::array<glm::dvec3, 9> sum{};
@@ -96,7 +78,7 @@ std::array<glm::vec3, 9> irradianceHarmonics(const nacre::Image& image) {
 Environment::Environment(Gpu& gpu, const scene::Environment& environment, std::uint32_t framesInFlight)
     : sampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eRepeat)),
       clampSampler_(makeSkySampler(gpu, vk::SamplerAddressMode::eClampToEdge)) {
-    const nacre::Image image = environment.image ? *environment.image : makeSky(environment);
+    const nacre::Image image = environment.image ? *environment.image : scene::makeSky(environment);
     if (image.width == 0 || image.values.size() != std::size_t{image.width} * image.height * 4) {
         throw RendererError("the environment image has " + std::to_string(image.values.size()) + " values for its " +
                             std::to_string(image.width) + "x" + std::to_string(image.height) + " pixels");

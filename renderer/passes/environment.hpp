@@ -46,9 +46,6 @@ private:
     vk::raii::Sampler clampSampler_ = nullptr;
 };
 
-/// The built-in sky as an equirectangular image: zenith over horizon over ground.
-nacre::Image makeSky(const scene::Environment& environment);
-
 /// Irradiance of an equirectangular image: E(n) = Σ result[i] · Y_i(n) over the nine harmonics of degree 0 to 2, the
 /// cosine lobe's factors π, 2π/3 and π/4 included (Ramamoorthi and Hanrahan 2001, eqs. 8 and 12).
 std::array<glm::vec3, 9> irradianceHarmonics(const nacre::Image& image);
