@@ -70,7 +70,9 @@ void render(const RenderOptions& options) {
     renderer::Device device(options.device);
     const scene::Scene scene = [&] {
         const Progress progress("loading " + sceneName(options));
-        return makeScene(options);
+        scene::Scene loaded = makeScene(options);
+        loaded.exposure *= std::exp2(options.exposure);
+        return loaded;
     }();
     requireInputsKept(options, scene);
     const scene::Camera camera = makeCamera(options, scene);

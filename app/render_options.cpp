@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 namespace nacre::app {
@@ -46,8 +44,6 @@ constexpr std::array aovs{
 };
 
 constexpr double maxExposure = 32;
-constexpr double maxCoordinate = 1e9; // as in scene files
-constexpr std::uint32_t maxSamples = 4;
 constexpr std::uint32_t minShadowMapSize = 16;
 constexpr std::uint32_t maxShadowMapSize = 16384;
 
@@ -81,25 +77,6 @@ AovOutput parseAov(const std::string& text) {
     return {output, name, file};
 }
 
-std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& option) {
-    if (text.empty()) {
-        return std::nullopt;
-    }
-    glm::vec3 point(0);
-    const char* position = text.data();
-    const char* const end = position + text.size();
-    for (int axis = 0; axis < 3; ++axis) {
-        const bool separated = axis == 0 || (position != end && *position++ == ',');
-        const auto [next, error] = std::from_chars(position, end, point[axis]);
-        if (!separated || error != std::errc() || !std::isfinite(point[axis]) || (axis == 2 && next != end)) {
-            throw UsageError(option + " '" + text + "' is not X,Y,Z, for example 0,1.5,-2");
-        }
-        requireRange(point[axis], -maxCoordinate, maxCoordinate, option);
-        position = next;
-    }
-    return point;
-}
-
 /// No output may replace another one or the input.
 void requireDistinct(const RenderOptions& options) {
     std::vector<std::filesystem::path> files{options.input, materialFile(options.material), options.output,
@@ -122,32 +99,15 @@ RenderOptionParser::RenderOptionParser(CLI::App& command) {
                                     const std::string& description) {
         command.add_flag(name, value, description)->group(group);
     };
-    command.add_option("SCENE", options_.input, "A scene file or a model; without it the built-in gallery")
-        ->type_name("");
-
+    scene_.addScene(command);
     const std::string picture = "Picture";
     add(picture, "-o,--output", options_.output,
         "FILE.png (sRGB) or FILE.exr (linear, before exposure and tone curve); default " + options_.output.string(),
         "FILE");
-    add(picture, "--size", size_, "Pixels; default " + size_, "WxH");
-    add(picture, "--samples", options_.settings.samples,
-        "Samples per axis of a pixel, 1 to " + std::to_string(maxSamples) + "; AOVs have a pixel for each; default " +
-            std::to_string(options_.settings.samples),
-        "N");
+    scene_.addPicture(command, "AOVs have a pixel for each; ");
     add(picture, "--exposure", exposure_, "Make a PNG brighter (> 0) or darker (< 0) by powers of two", "EV");
-    add(picture, "--material", options_.material, "Give every body this material: a preset or a material file",
-        "NAME|FILE");
-
-    const std::string light = "Light";
-    addFlag(light, "--front", front_, "Only the lights on the camera's side, as --light front");
-    addFlag(light, "--back", back_, "Only the lights on the far side, as --light back");
-    add(light, "--light", options_.lights, "front, back, both, or a light's name; may be repeated", "SIDE|NAME");
-
-    const std::string camera = "Camera";
-    add(camera, "--camera", options_.camera, "One of the scene's cameras; default the first", "NAME|NUMBER");
-    add(camera, "--camera-position", cameraPosition_, "Where the camera is, scene units", "X,Y,Z");
-    add(camera, "--camera-target", cameraTarget_, "What the camera looks at, scene units", "X,Y,Z");
-    add(camera, "--fov", fieldOfView_, "Vertical field of view", "DEGREES");
+    scene_.addLight(command);
+    scene_.addCamera(command);
 
     const std::string effect = "Effect";
     add(effect, "--technique", technique_, "How light is spread: " + names(techniques()), "NAME");
@@ -174,35 +134,23 @@ Examples:
 
 RenderOptions RenderOptionParser::finish() const {
     RenderOptions options = options_;
-    const PictureSize size = parseSize(size_);
-    options.settings.width = size.width;
-    options.settings.height = size.height;
+    static_cast<SceneOptions&>(options) = scene_.finish();
+    options.settings.width = options.width;
+    options.settings.height = options.height;
+    options.settings.samples = options.samples;
     options.settings.technique = find(techniques(), technique_, "technique");
     options.settings.scatter = !noScatter_;
     options.settings.transmit = !noTransmit_;
     options.settings.dither = true;
-    requireRange(options.settings.samples, 1, maxSamples, "--samples");
     requireRange(options.settings.shadowMapSize, minShadowMapSize, maxShadowMapSize, "--shadow-map-size");
     if (options.output.extension() != ".png" && options.output.extension() != ".exr") {
         throw UsageError("--output '" + options.output.string() + "' ends neither in .png nor in .exr");
-    }
-    if (front_) {
-        options.lights.emplace_back("front");
-    }
-    if (back_) {
-        options.lights.emplace_back("back");
     }
     requireRange(exposure_, -maxExposure, maxExposure, "--exposure");
     if (exposure_ != 0 && options.output.extension() == ".exr") {
         throw UsageError("--exposure is for a PNG; '" + options.output.string() + "' holds the light before exposure");
     }
     options.exposure = static_cast<float>(exposure_);
-    options.cameraPosition = parsePoint(cameraPosition_, "--camera-position");
-    options.cameraTarget = parsePoint(cameraTarget_, "--camera-target");
-    if (fieldOfView_) {
-        requireRange(*fieldOfView_, 1, 170, "--fov");
-        options.fieldOfView = static_cast<float>(*fieldOfView_ * std::numbers::pi / 180);
-    }
     std::ranges::transform(aovs_, std::back_inserter(options.aovs), parseAov);
     options.settings.thickness =
         std::ranges::any_of(options.aovs, [](const AovOutput& aov) { return aov.output == Output::Thickness; });

@@ -89,7 +89,7 @@ std::optional<std::size_t> parseIndex(const std::string& text) {
     return std::stoul(text);
 }
 
-Camera findCamera(const RenderOptions& options, const Scene& scene) {
+Camera findCamera(const SceneOptions& options, const Scene& scene) {
     if (options.camera.empty()) {
         return scene.cameras.at(0);
     }
@@ -107,7 +107,7 @@ Camera findCamera(const RenderOptions& options, const Scene& scene) {
 
 } // namespace
 
-void chooseLights(const RenderOptions& options, Scene& scene) {
+void chooseLights(const SceneOptions& options, Scene& scene) {
     if (options.lights.empty()) {
         return;
     }
@@ -134,11 +134,11 @@ void chooseLights(const RenderOptions& options, Scene& scene) {
     std::ranges::copy(marked(builtIn, added), std::back_inserter(scene.lights));
 }
 
-std::string sceneName(const RenderOptions& options) {
+std::string sceneName(const SceneOptions& options) {
     return options.input.empty() ? "gallery" : options.input.string();
 }
 
-Scene makeScene(const RenderOptions& options) {
+Scene makeScene(const SceneOptions& options) {
     std::optional<Material> material;
     if (!options.material.empty()) {
         material = readMaterial(options.material);
@@ -151,11 +151,10 @@ Scene makeScene(const RenderOptions& options) {
         scene::assignMaterial(scene, *material);
     }
     chooseLights(options, scene);
-    scene.exposure *= std::exp2(options.exposure);
     return scene;
 }
 
-Camera makeCamera(const RenderOptions& options, const Scene& scene) {
+Camera makeCamera(const SceneOptions& options, const Scene& scene) {
     Camera camera = findCamera(options, scene);
     camera.position = options.cameraPosition.value_or(camera.position);
     camera.target = options.cameraTarget.value_or(camera.target);

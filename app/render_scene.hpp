@@ -1,25 +1,25 @@
-// The scene and camera that `nacre render` was asked for.
+// The scene and camera that a command was asked for.
 #pragma once
 
-#include "app/render_options.hpp"
+#include "app/scene_options.hpp"
 #include "scene/scene.hpp"
 
 namespace nacre::app {
 
 /// "gallery", or the file's name.
-std::string sceneName(const RenderOptions& options);
+std::string sceneName(const SceneOptions& options);
 
 /// Loads the scene or builds the gallery, says on standard error what its importer left out or assumed (Scene::notes),
-/// and applies --material, --light and --exposure.
+/// and applies --material and --light.
 /// Throws UsageError, scene::SceneError or std::runtime_error with one sentence.
-scene::Scene makeScene(const RenderOptions& options);
+scene::Scene makeScene(const SceneOptions& options);
 
 /// Leaves the scene the lights that --light asks for, and puts in what it lacks on a side. Throws std::runtime_error
 /// naming a light that the scene does not have.
-void chooseLights(const RenderOptions& options, scene::Scene& scene);
+void chooseLights(const SceneOptions& options, scene::Scene& scene);
 
 /// --camera, then --camera-position, --camera-target and --fov on top of it.
 /// Throws std::runtime_error when the scene has no such camera or the camera looks nowhere.
-scene::Camera makeCamera(const RenderOptions& options, const scene::Scene& scene);
+scene::Camera makeCamera(const SceneOptions& options, const scene::Scene& scene);
 
 } // namespace nacre::app

@@ -12,14 +12,14 @@ namespace {
 
 constexpr float closeUpFieldOfView = 0.35f;
 
-app::RenderOptions optionsOf(const std::filesystem::path& file) {
-    app::RenderOptions options;
+app::SceneOptions optionsOf(const std::filesystem::path& file) {
+    app::SceneOptions options;
     options.input = file;
     return options;
 }
 
 // With all of its lights.
-scene::Scene loadScene(const app::RenderOptions& options) {
+scene::Scene loadScene(const app::SceneOptions& options) {
     scene::Scene scene = app::makeScene(options);
     if (scene.materials.empty()) {
         throw std::runtime_error(app::sceneName(options) + ": has no subsurface material to measure");
@@ -27,7 +27,7 @@ scene::Scene loadScene(const app::RenderOptions& options) {
     return scene;
 }
 
-std::shared_ptr<const View> litFrom(const char* side, scene::Scene scene, app::RenderOptions options) {
+std::shared_ptr<const View> litFrom(const char* side, scene::Scene scene, app::SceneOptions options) {
     options.lights = {side};
     app::chooseLights(options, scene);
     const scene::Camera camera = makeCamera(options, scene);
@@ -62,12 +62,12 @@ scene::Camera lookAt(const scene::Bounds& bounds, const scene::Camera& from) {
 } // namespace
 
 std::shared_ptr<const View> makeView(const std::filesystem::path& file, const char* side) {
-    const app::RenderOptions options = optionsOf(file);
+    const app::SceneOptions options = optionsOf(file);
     return litFrom(side, loadScene(options), options);
 }
 
 Views makeViews(const std::filesystem::path& file) {
-    const app::RenderOptions options = optionsOf(file);
+    const app::SceneOptions options = optionsOf(file);
     scene::Scene scene = loadScene(options);
     return {litFrom("front", scene, options), litFrom("back", std::move(scene), options)};
 }
