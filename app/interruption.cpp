@@ -53,8 +53,12 @@ void runInterruptibly(const std::function<void()>& work) {
     }
 }
 
+bool isInterrupted() {
+    return interruption != 0;
+}
+
 void throwIfInterrupted() {
-    if (interruption != 0) {
+    if (isInterrupted()) {
         throw Interrupted();
     }
 }

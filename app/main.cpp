@@ -19,6 +19,7 @@ constexpr const char* examples = R"(Examples:
   nacre render -o gallery.png                           the built-in gallery
   nacre render model.glb --material skin --back         any model, lit from behind
   nacre render scene.json -o frame.exr --json frame.json
+  nacre reference model.glb -o truth.exr                what the picture should be
   nacre compare frame.exr reference.exr                 how far a picture is from another
   nacre material list                                   what there is to render with
   nacre devices                                         what there is to render on
@@ -84,6 +85,7 @@ int main(int argumentCount, char** arguments) {
         app.set_version_flag("--version", "nacre " NACRE_VERSION);
         app.footer(examples);
         nacre::app::addRender(app);
+        nacre::app::addReference(app);
         nacre::app::addCompare(app);
         nacre::app::addMaterial(app);
         nacre::app::addDevices(app);
