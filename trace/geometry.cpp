@@ -150,7 +150,7 @@ struct Geometry::Implementation {
         scene::Bounds bounds;
     };
     std::vector<Set> sets;
-    float step = 0; ///< of movedOff
+    float reach = 0; ///< largest coordinate
 
     void addInstance(const scene::Instance& instance);
     void attach(TracedInstance& instance, Masked& mask);
@@ -207,7 +207,7 @@ Geometry::Geometry(const scene::Scene& scene) : implementation_(std::make_unique
     addSet(all);
     const scene::Bounds& box = bounds();
     const glm::vec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-    implementation_->step = 32 * std::numeric_limits<float>::epsilon() * std::max({reach.x, reach.y, reach.z});
+    implementation_->reach = std::max({reach.x, reach.y, reach.z});
 }
 
 Geometry::~Geometry() = default;
@@ -337,7 +337,10 @@ SurfacePoint Geometry::surfaceAt(const Hit& hit) const {
 }
 
 glm::vec3 Geometry::movedOff(const glm::vec3& point, const glm::vec3& normal) const {
-    return point + normal * implementation_->step;
+    // Rounding grows with the coordinates; those of a large triangle's corners count even where it is near the origin.
+    const glm::vec3 size = glm::abs(point);
+    const float scale = std::max({size.x, size.y, size.z, implementation_->reach / 8});
+    return point + normal * (8 * std::numeric_limits<float>::epsilon() * scale);
 }
 
 const scene::Bounds& Geometry::bounds(InstanceSet set) const {

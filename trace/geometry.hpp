@@ -75,8 +75,8 @@ public:
     /// The three corners in world space.
     std::array<glm::vec3, 3> corners(std::uint32_t instance, std::uint32_t triangle) const;
 
-    /// `point` moved off its surface along `normal`, far enough that a ray from there does not meet it again: 32 steps
-    /// of a float at the largest coordinate in the scene.
+    /// `point` moved off its surface along `normal`, far enough that a ray from there does not meet it again and too
+    /// little for light to notice: eight steps of a float at its coordinates, or at an eighth of the scene's largest.
     glm::vec3 movedOff(const glm::vec3& point, const glm::vec3& normal) const;
 
     /// Edges that do not have one triangle on either side, vertices at one position taken for one. 0: the instances
