@@ -6,7 +6,7 @@
 #include "app/reference_progress.hpp"
 #include "app/reference_report.hpp"
 #include "app/render_scene.hpp"
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -25,7 +25,7 @@ constexpr std::chrono::seconds checkpointInterval{30};
 
 /// The one place that knows how a film becomes a file.
 void writeFilm(const std::filesystem::path& file, const reference::Film& film) {
-    scene::writeExr(file, film.width, film.height, reference::channelNames(), reference::channelValues(film));
+    writeExr(file, {film.width, film.height, reference::channelNames(), reference::channelValues(film)});
 }
 
 const char* stoppedBy(Stopped stopped) {
@@ -63,7 +63,7 @@ void readDirectLight(ReferenceOptions& options) {
     if (options.direct.empty()) {
         return;
     }
-    scene::FloatImage image = scene::readFloatImage(options.direct);
+    nacre::Image image = readRadiance(options.direct);
     if (std::uint64_t{image.width} * options.height != std::uint64_t{image.height} * options.width) {
         throw std::runtime_error(options.direct.string() + ": is " + std::to_string(image.width) + "x" +
                                  std::to_string(image.height) + ", which is no picture of " +

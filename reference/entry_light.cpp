@@ -21,7 +21,7 @@ std::optional<Wall> wallOf(const Material& material, const glm::dvec3& albedo, b
 
 EntryLight::EntryLight(const trace::Geometry& geometry) : geometry_(geometry), illumination_(geometry) {}
 
-void EntryLight::setRendered(const trace::View& view, const glm::dvec2& pictureSize, scene::FloatImage image) {
+void EntryLight::setRendered(const trace::View& view, const glm::dvec2& pictureSize, nacre::Image image) {
     view_ = view;
     pictureSize_ = pictureSize;
     image_ = std::move(image);
@@ -46,7 +46,7 @@ std::optional<glm::dvec3> EntryLight::rendered(const trace::SurfacePoint& point,
     }
     const auto column = static_cast<std::size_t>(place->x / pictureSize_.x * image_.width);
     const auto row = static_cast<std::size_t>(place->y / pictureSize_.y * image_.height);
-    const float* pixel = &image_.pixels[(row * image_.width + column) * 4];
+    const float* pixel = &image_.values[(row * image_.width + column) * 4];
     return glm::dvec3(pixel[0], pixel[1], pixel[2]);
 }
 

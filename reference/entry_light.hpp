@@ -27,7 +27,7 @@ public:
     const trace::Illumination& illumination() const { return illumination_; }
 
     /// From now on `image` is the irradiance that `view` sees; it covers the whole picture, with any number of pixels.
-    void setRendered(const trace::View& view, const glm::dvec2& pictureSize, scene::FloatImage image);
+    void setRendered(const trace::View& view, const glm::dvec2& pictureSize, nacre::Image image);
 
     /// One estimate of what enters at `point`, from both sides where its surface is double-sided.
     glm::dvec3 entering(const trace::SurfacePoint& point, trace::Random& random) const;
@@ -43,7 +43,7 @@ private:
     trace::Illumination illumination_;
     std::optional<trace::View> view_;
     glm::dvec2 pictureSize_{1};
-    scene::FloatImage image_;
+    nacre::Image image_;
 };
 
 } // namespace nacre::reference

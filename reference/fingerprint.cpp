@@ -47,10 +47,10 @@ void addLight(Fingerprint& print, const scene::Light& light) {
     print.addValue(light.castsShadow);
 }
 
-void addImage(Fingerprint& print, const scene::FloatImage& image) {
+void addImage(Fingerprint& print, const nacre::Image& image) {
     print.addValue(image.width);
     print.addValue(image.height);
-    print.addAll(image.pixels);
+    print.addAll(image.values);
 }
 
 void addEnvironment(Fingerprint& print, const scene::Environment& environment) {
@@ -123,7 +123,7 @@ std::string fingerprintOf(const scene::Camera& camera) {
     return print.text();
 }
 
-std::string fingerprintOf(const scene::FloatImage& image) {
+std::string fingerprintOf(const nacre::Image& image) {
     Fingerprint print;
     addImage(print, image);
     return print.text();

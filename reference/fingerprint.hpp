@@ -28,6 +28,6 @@ private:
 /// Of everything in the scene that a reference depends on: geometry, surfaces, materials, lights and surroundings.
 std::string fingerprintOf(const scene::Scene& scene);
 std::string fingerprintOf(const scene::Camera& camera);
-std::string fingerprintOf(const scene::FloatImage& image);
+std::string fingerprintOf(const nacre::Image& image);
 
 } // namespace nacre::reference

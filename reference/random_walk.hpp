@@ -4,7 +4,7 @@
 #include "reference/entry_light.hpp"
 #include "reference/estimator.hpp"
 #include "reference/medium.hpp"
-#include "trace/frame.hpp"
+#include "trace/orthonormal_frame.hpp"
 
 namespace nacre::reference {
 

@@ -37,7 +37,7 @@ struct Settings {
     Boundary boundary = Boundary::Matched; ///< Walk
     double anisotropy = 0;                 ///< Walk: (−1, 1) Henyey and Greenstein's g
     /// Irradiance as a renderer has it, see EntryLight.
-    std::optional<scene::FloatImage> direct;
+    std::optional<nacre::Image> direct;
     unsigned threads = 0; ///< 0 = all cores
 };
 

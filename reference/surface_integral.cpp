@@ -1,6 +1,6 @@
 #include "reference/surface_integral.hpp"
 
-#include "trace/frame.hpp"
+#include "trace/orthonormal_frame.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "trace/geometry.hpp"
 
-#include "trace/texture.hpp"
+#include "trace/texture_lookup.hpp"
 
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>

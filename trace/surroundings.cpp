@@ -1,7 +1,7 @@
 #include "trace/surroundings.hpp"
 
 #include "scene/sky.hpp"
-#include "trace/frame.hpp"
+#include "trace/orthonormal_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,8 +29,8 @@ Surroundings::Surroundings(const scene::Environment& environment)
       intensity_(environment.intensity),
       cosine_(std::cos(static_cast<double>(environment.rotation))),
       sine_(std::sin(static_cast<double>(environment.rotation))) {
-    if (image_.width == 0 || image_.pixels.size() != std::size_t{image_.width} * image_.height * 4) {
-        throw scene::SceneError("the environment image has " + std::to_string(image_.pixels.size()) +
+    if (image_.width == 0 || image_.values.size() != std::size_t{image_.width} * image_.height * 4) {
+        throw scene::SceneError("the environment image has " + std::to_string(image_.values.size()) +
                                 " values for its " + std::to_string(image_.width) + "x" +
                                 std::to_string(image_.height) + " pixels");
     }
@@ -87,7 +87,7 @@ glm::dvec3 Surroundings::pixel(std::int64_t column, std::int64_t row) const {
     const std::int64_t width = image_.width;
     column = ((column % width) + width) % width;
     row = std::clamp<std::int64_t>(row, 0, image_.height - 1);
-    const float* value = &image_.pixels[static_cast<std::size_t>(row * width + column) * 4];
+    const float* value = &image_.values[static_cast<std::size_t>(row * width + column) * 4];
     return glm::max(glm::dvec3(value[0], value[1], value[2]), 0.0);
 }
 

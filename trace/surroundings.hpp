@@ -35,7 +35,7 @@ private:
     glm::dvec3 sampleImage(Random& random) const;
     glm::dvec3 pixel(std::int64_t column, std::int64_t row) const;
 
-    scene::FloatImage image_;
+    nacre::Image image_;
     double intensity_ = 1;
     double cosine_ = 1; ///< of the turn about +Y
     double sine_ = 0;

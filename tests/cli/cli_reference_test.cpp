@@ -1,6 +1,6 @@
 // `nacre reference` as a user runs it: pictures, reports, parts, resuming and what it refuses. Needs no device.
 #include "command.hpp"
-#include "scene/image.hpp"
+#include "image/image_file.hpp"
 #include "schema.hpp"
 
 #include <nlohmann/json.hpp>
@@ -43,12 +43,12 @@ TEST_F(ReferenceCommandTest, WritesPictureCheckpointAndReport) {
     EXPECT_EQ(json["spp"]["least"], 4);
     EXPECT_EQ(json["stoppedBy"], "spp");
     EXPECT_GT(json["noise"].get<double>(), 0);
-    const nacre::scene::FloatImage image = nacre::scene::readFloatImage(folder() / "r.exr");
+    const nacre::Image image = nacre::readRadiance(folder() / "r.exr");
     EXPECT_EQ(image.width, 24u);
-    EXPECT_EQ(image.pixels[3], 0); // nothing in the corner
+    EXPECT_EQ(image.values[3], 0); // nothing in the corner
     const std::size_t middle = (8 * 24 + 12) * 4;
-    EXPECT_GT(image.pixels[middle], 0);
-    EXPECT_EQ(image.pixels[middle + 3], 1);
+    EXPECT_GT(image.values[middle], 0);
+    EXPECT_EQ(image.values[middle + 3], 1);
 }
 
 TEST_F(ReferenceCommandTest, PartsMergeToTheWholeToTheLastBit) {
@@ -89,18 +89,19 @@ TEST_F(ReferenceCommandTest, TakesDirectLightFromAnImage) {
     const std::vector<std::string> names{"R", "G", "B"};
     for (const int brightness : {1, 2}) {
         const std::vector<float> pixels(24 * 16 * 3, static_cast<float>(brightness));
-        nacre::scene::writeExr(folder() / (std::to_string(brightness) + ".exr"), 24, 16, names, pixels);
+        nacre::writeExr(folder() / (std::to_string(brightness) + ".exr"), {24, 16, names, pixels});
         EXPECT_EQ(run(arguments({"--spp", "16", "-o", "r" + std::to_string(brightness) + ".exr", "--direct",
                                  std::to_string(brightness) + ".exr"}))
                       .exitCode,
                   0);
     }
     const std::size_t middle = (8 * 24 + 12) * 4;
-    const auto one = nacre::scene::readFloatImage(folder() / "r1.exr").pixels;
-    const auto two = nacre::scene::readFloatImage(folder() / "r2.exr").pixels;
+    const auto one = nacre::readRadiance(folder() / "r1.exr").values;
+    const auto two = nacre::readRadiance(folder() / "r2.exr").values;
     EXPECT_GT(one[middle], 0);
     EXPECT_NEAR(two[middle] / one[middle], 2, 0.05);
-    expectComplaint(run(arguments({"--direct", "1.exr", "--size", "24x24"})), 1, {"1.exr", "24x16", "24x24"});
+    expectComplaint(run({"reference", "cube.obj", "--size", "24x24", "--direct", "1.exr"}), 1,
+                    {"1.exr", "24x16", "24x24"});
 }
 
 struct ReferenceFault {
@@ -137,10 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST_F(ReferenceCommandTest, BadInputLeavesNothing) {
+    writeText(folder() / "noise.exr", "hello");
     const std::vector<std::string> before = files();
     expectComplaint(run({"reference", "none.glb"}), 1, {"none.glb", "No such file"});
     expectComplaint(run(arguments({"-o", "missing/r.exr"})), 1, {"missing/r.exr", "no folder"});
-    expectComplaint(run(arguments({"--direct", "cube.obj"})), 1, {"cube.obj"});
+    expectComplaint(run(arguments({"--direct", "noise.exr"})), 1, {"noise.exr"});
     expectComplaint(run(arguments({"--camera", "9"})), 1, {"camera '9'"});
     EXPECT_EQ(files(), before);
 }

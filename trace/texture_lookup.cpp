@@ -1,4 +1,4 @@
-#include "trace/texture.hpp"
+#include "trace/texture_lookup.hpp"
 
 #include <array>
 #include <cmath>
