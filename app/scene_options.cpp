@@ -34,18 +34,6 @@ std::optional<glm::vec3> parsePoint(const std::string& text, const std::string& 
     return point;
 }
 
-/// Whether both names lead to one file, if need be through links.
-bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
-    std::error_code error;
-    if (std::filesystem::equivalent(one, other, error)) {
-        return true;
-    }
-    const auto place = [&](const std::filesystem::path& file) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
-    };
-    return place(one) == place(other) && !error;
-}
-
 /// One value each time, so that a scene may follow it.
 template <typename Value>
 void addValue(CLI::App& command, const char* group, const char* name, Value& value, const std::string& description,
@@ -107,17 +95,6 @@ SceneOptions SceneOptionParser::finish() const {
         options.fieldOfView = static_cast<float>(*fieldOfView_ * std::numbers::pi / 180);
     }
     return options;
-}
-
-void requireDistinctFiles(std::vector<std::filesystem::path> files) {
-    std::erase(files, std::filesystem::path());
-    for (auto file = files.begin(); file != files.end(); ++file) {
-        const auto twin =
-            std::find_if(files.begin(), file, [&](const auto& other) { return isSameFile(*file, other); });
-        if (twin != file) {
-            throw UsageError("the same file is given twice: '" + twin->string() + "' and '" + file->string() + "'");
-        }
-    }
 }
 
 } // namespace nacre::app

@@ -56,7 +56,4 @@ private:
     bool back_ = false;
 };
 
-/// Throws UsageError naming two of the files that are one, if need be through links. Empty names are none.
-void requireDistinctFiles(std::vector<std::filesystem::path> files);
-
 } // namespace nacre::app

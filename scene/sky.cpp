@@ -23,7 +23,7 @@ nacre::Image makeSky(const Environment& environment) {
         const glm::vec3 above = glm::mix(environment.horizon, environment.zenith, std::sqrt(std::max(elevation, 0.0f)));
         const glm::vec3 color = glm::mix(environment.ground, above, smoothStep(-0.15f, 0.05f, elevation));
         for (std::uint32_t column = 0; column < image.width; ++column) {
-            image.values.insert(image.pixels.end(), {color.r, color.g, color.b, 1.0f});
+            image.values.insert(image.values.end(), {color.r, color.g, color.b, 1.0f});
         }
     }
     return image;

@@ -156,10 +156,10 @@ TEST_P(SurroundingsTest, IrradianceOfAnImageIsItsIntegral) {
     scene::Scene scene = darkScene();
     addMesh(scene, rectangle({-50, -50}, {50, 50}, 0), addSurface(scene, nullptr));
     // A gradient with, or without, a small bright spot, which decides how it is sampled; turned about the vertical.
-    scene::FloatImage image{.width = 64, .height = 32, .pixels = {}};
+    nacre::Image image{64, 32, {"R", "G", "B", "A"}, {}};
     for (std::uint32_t i = 0; i < 64 * 32; ++i) {
         const bool spot = GetParam() && i % 64 == 40 && i / 64 == 6;
-        image.pixels.insert(image.pixels.end(), {spot ? 500.0f : 1.0f, i / 64 < 16 ? 2.0f : 0.0f, 1, 1});
+        image.values.insert(image.values.end(), {spot ? 500.0f : 1.0f, i / 64 < 16 ? 2.0f : 0.0f, 1, 1});
     }
     scene.environment.image = image;
     scene.environment.rotation = 0.7f;
