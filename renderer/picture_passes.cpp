@@ -59,10 +59,10 @@ PicturePasses::PicturePasses(Gpu& gpu, const Inputs& inputs, const RenderSetting
                          {settings.width, settings.height}, limits.materials, limits.framesInFlight);
       })) {
     if (settings.copyFloor) {
-        copyFloor.emplace(gpu,
-                          CopyFloor::Inputs{lighting.irradiance(), gbuffer.image(GBuffer::Depth),
-                                            gbuffer.image(GBuffer::MaterialId)},
-                          inputs.nearest);
+        copyFloor.emplace(
+            gpu,
+            CopyFloor::Inputs{lighting.irradiance(), gbuffer.image(GBuffer::Depth), gbuffer.image(GBuffer::MaterialId)},
+            inputs.nearest);
     }
 }
 

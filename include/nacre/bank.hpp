@@ -41,8 +41,8 @@ public:
     /// response is within 4e-4 of the projection at that very scale, with 4 within 1.5e-3; where one bin leaves a
     /// kernel out and the next does not, within 7e-3 (tests/unit/bank_test.cpp).
     static constexpr int binsPerOctave = 8;
-    /// Bins stand at the same scales for every profile: 2^firstOctave to 2^lastOctave px/mm, which is pixels of a metre to
-    /// those of 61 nm. Scales beyond have the mixture of the first or the last.
+    /// Bins stand at the same scales for every profile: 2^firstOctave to 2^lastOctave px/mm, which is pixels of a metre
+    /// to those of 61 nm. Scales beyond have the mixture of the first or the last.
     static constexpr int firstOctave = -10;
     static constexpr int lastOctave = 14;
     static constexpr int binCount = (lastOctave - firstOctave) * binsPerOctave + 1;

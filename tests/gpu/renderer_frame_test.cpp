@@ -12,7 +12,6 @@ namespace {
 
 using renderer::FrameView;
 using renderer::RenderSettings;
-using renderer::Technique;
 
 class Frames : public RendererTest {};
 
@@ -80,7 +79,7 @@ State stateOf(int i) {
     scene.environment.intensity = 0.2f + 0.05f * t;
     scene.environment.rotation = 0.5f * t;
     state.settings.transmit = i != 1;
-    state.settings.technique = i == 3 ? Technique::Separable : Technique::Default;
+    state.settings.technique = i == 3 ? NACRE_TECHNIQUE_SEPARABLE : NACRE_TECHNIQUE_DEFAULT;
     state.view = {scene.cameras[0], {0.1f * t - 0.2f, 0.25f - 0.1f * t}};
     return state;
 }
@@ -254,7 +253,7 @@ TEST_F(Frames, RefuseWhatTheyWereNotMadeFor) {
     surfaces[1].doubleSided = true;
     refused([&](renderer::Frame& frame) { frame.setSurfaces(surfaces); }, "'ball'");
     RenderSettings brute = frameSettings();
-    brute.technique = Technique::Brute;
+    brute.technique = NACRE_TECHNIQUE_BRUTE;
     EXPECT_FALSE(driver.frame.isPrepared(brute));
     refused([&](renderer::Frame& frame) { frame.setEffect(brute); }, "not prepared");
     refused([&](renderer::Frame& frame) { frame.effectUse(1); }, "picture");
