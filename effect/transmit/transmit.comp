@@ -49,6 +49,10 @@ const float steepestPlane = 4.0;
 // the shadow map plus pixels plus this share of the thickness. From there to twice that, the answer fades.
 const float sameSurfaceTexels = 1.5;
 const float sameSurfaceShare = 0.02;
+// [1] Cosine between the normal and the way to the camera below which a surface's depth is no longer told more exactly.
+const float leastFacing = 0.3;
+// [1] The same cosine from which on all light around an entry point is taken to enter where the camera sees it.
+const float fullyFacing = 0.5;
 // [1] Transmittance below which nobody asks whether scatter has the light already: twice as much of it is not seen.
 const float leastTwice = 1.0 / 256.0;
 
@@ -249,8 +253,9 @@ vec2 pixelOf(vec3 position) {
     return inverse(steps) * (position.xy - view.rayBias * position.z - view.originBias);
 }
 
-// [0, 1] How surely the camera does not see the point where the light enters: 0 where the pixel there shows that point on
-// a side that the light reaches. Its light is in the irradiance that scatter gathers. `tolerance`: mm.
+// [0, 1] How much of the light around the entry point the camera does not see: 0 where the pixel there shows that point, on a
+// side that the light reaches and that faces the camera. That light is in the irradiance that scatter gathers. Towards a
+// silhouette more and more of it enters beyond, and the answer fades to 1. `tolerance`: mm.
 float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolerance) {
     vec3 entry = receiver.viewPosition + mat3(view.viewFromWorld) * (thickness * toLight);
     ivec2 pixel = ivec2(floor(pixelOf(entry) + 0.5));
@@ -262,8 +267,12 @@ float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolera
     if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
         return 1.0;
     }
-    float distance = abs(dot((entry - viewPosition(pixel, z)) * mat3(view.viewFromWorld), normal));
-    return clamp(distance / (tolerance + length(stepX(z)) * sameSurfaceTexels) - 1.0, 0.0, 1.0);
+    vec3 ray = vec3(rayAt(pixel), 1.0); // to the camera
+    float stretch = length(ray);
+    float facing = dot(mat3(view.viewFromWorld) * normal, ray) / stretch;
+    float distance = abs(entry.z - z) * stretch * max(facing, leastFacing);
+    float same = clamp(2.0 - distance / (tolerance + length(stepX(z)) * sameSurfaceTexels), 0.0, 1.0);
+    return 1.0 - same * smoothstep(0.0, fullyFacing, facing);
 }
 
 // Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where none shines through.
