@@ -62,7 +62,7 @@ const char* nacreTechniqueString(NacreTechnique technique) {
     return index < scatterTechniqueCount && techniques[index]->isBuilt() ? techniques[index]->name : "unknown";
 }
 
-NacreResult nacreGetTechniques(uint32_t* techniqueCount, NacreTechnique* techniquesOut) {
+NacreResult nacreGetTechniques(uint32_t* count, NacreTechnique* techniquesOut) {
     return guard(nullptr, nullptr, [&] {
         std::vector<NacreTechnique> list;
         for (const bool baseline : {false, true}) {
@@ -72,7 +72,7 @@ NacreResult nacreGetTechniques(uint32_t* techniqueCount, NacreTechnique* techniq
                 }
             }
         }
-        handOver(std::span<const NacreTechnique>(list), techniqueCount, techniquesOut, "techniqueCount");
+        handOver(std::span<const NacreTechnique>(list), count, techniquesOut, "techniqueCount");
     });
 }
 
