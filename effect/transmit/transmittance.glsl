@@ -9,18 +9,22 @@ bool usesLayers(uint material) {
     return hasFlag(flagThesisTransmittance) && tables[material].layerCount != 0u;
 }
 
-// Σ w·exp(−d²/v), the thesis's own form, added up layer by layer as in its shader; weighted sum of 4x4 thicknesses. The rows
-// are written out: as a loop, with 1024 lights and 32 layers, they would take more turns than the 65,535 after which Mesa's
-// software device ends all loops of a shader without a word.
+vec3 oneLayerTransmittance(vec4 layer, mat4 thickness, vec4 columnWeights, vec4 rowWeights) {
+    vec4 rows = vec4(dot(columnWeights, exp(-layer.w * thickness[0] * thickness[0])),
+                     dot(columnWeights, exp(-layer.w * thickness[1] * thickness[1])),
+                     dot(columnWeights, exp(-layer.w * thickness[2] * thickness[2])),
+                     dot(columnWeights, exp(-layer.w * thickness[3] * thickness[3])));
+    return layer.rgb * dot(rowWeights, rows);
+}
+
+// Σ w·exp(−d²/v), the thesis's own form, added up layer by layer as in its shader; weighted sum of 4x4 thicknesses. Two
+// layers a turn, the last of which may weigh nothing: Mesa's software device ends all loops of a shader together, without a
+// word, after 65,535 turns.
 vec3 layerTransmittance(uint material, mat4 thickness, vec4 columnWeights, vec4 rowWeights) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < tables[material].layerCount; ++i) {
-        vec4 layer = tables[material].layers[i];
-        vec4 rows = vec4(dot(columnWeights, exp(-layer.w * thickness[0] * thickness[0])),
-                         dot(columnWeights, exp(-layer.w * thickness[1] * thickness[1])),
-                         dot(columnWeights, exp(-layer.w * thickness[2] * thickness[2])),
-                         dot(columnWeights, exp(-layer.w * thickness[3] * thickness[3])));
-        sum += layer.rgb * dot(rowWeights, rows);
+    for (uint i = 0u; i < tables[material].layerCount; i += 2u) {
+        sum += oneLayerTransmittance(tables[material].layers[i], thickness, columnWeights, rowWeights);
+        sum += oneLayerTransmittance(tables[material].layers[i + 1u], thickness, columnWeights, rowWeights);
     }
     return sum;
 }

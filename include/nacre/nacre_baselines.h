@@ -25,7 +25,8 @@ typedef struct NacreBaselineSettings {
     VkBool32 thesisBakedKernel;   /**< every material gets the kernel of nacreBakeThesisKernel, which is compiled in */
     VkBool32 thesisTransmittance; /**< transmit, materials of layers: T = sum w exp(-d²/v), the thesis's own form, in place
                                        of exp(-d²/2v), added up layer by layer in every pixel as in its shader. Light that
-                                       enters at a point that the camera sees is counted, too */
+                                       enters at a point that the camera sees is counted, too. Mesa's software
+                                       device sums up to 512 lights of 32 layers, and drops those beyond */
 } NacreBaselineSettings;
 
 /** Compiles the kernel of a material that is set, with this radius ([1 … 16] 0 = 5), into the passes that
