@@ -59,7 +59,7 @@ const float leastTwice = 1.0 / 256.0;
 struct Receiver {
     vec3 viewPosition; // view space, mm
     vec3 position;     // world space, scene units
-    vec3 normal;   // world space, unit length
+    vec3 normal;       // world space, unit length
     uint material;
     float authored; // mm, 0 = not authored
 };
@@ -224,8 +224,9 @@ bool mayCountTwice(vec3 transmittance) {
     return any(greaterThan(transmittance, vec3(leastTwice))) && !hasFlag(flagThesisTransmittance);
 }
 
-// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way through what the normal offset cut off is added again. What is filtered is the
-// transmittance: light adds up, thickness does not.
+// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way
+// through what the normal offset cut off is added again. What is filtered is the transmittance: light adds up, thickness
+// does not.
 vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
     vec4 columns, rows, columnWeights, rowWeights;
     taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);

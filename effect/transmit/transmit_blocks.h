@@ -53,7 +53,7 @@ struct LightParameters {
 
 #ifdef __cplusplus
 static_assert(offsetof(TransmitParameters, normalOffset) == 256 && sizeof(TransmitParameters) == 272);
-static_assert(maxLayers % 4 == 0); // transmittance.glsl adds four a turn
+static_assert(maxLayers % 2 == 0); // transmittance.glsl adds two a turn
 static_assert(offsetof(TransmitTable, transmittance) == 16 &&
               sizeof(TransmitTable) == 16 * (1 + maxLayers) + 8 * (transmittanceLast + 2));
 static_assert(offsetof(LightParameters, position) == 48 && offsetof(LightParameters, coneScale) == 96 &&
