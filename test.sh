@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every test: the layout of the code, the whole suite optimised, then the CPU tests under AddressSanitizer and
+# Every test: the layout of the code, the whole suite optimised, clang-tidy, then the CPU tests under AddressSanitizer and
 # UndefinedBehaviorSanitizer, then two contexts on two threads under ThreadSanitizer.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -27,6 +27,8 @@ check scripts/dev format --check
 for preset in release asan tsan; do
     echo "== $preset ==" | tee -a "$log"
     run_preset "$preset" || status=$?
+    # clang-tidy reads what the release build compiled.
+    [ "$preset" != release ] || check scripts/dev tidy
 done
 
 echo

@@ -125,8 +125,8 @@ std::vector<float> idsOf(const std::string& material, const CompareOptions& opti
 /// The image with the ids, and the channel they are in.
 std::pair<Image, std::size_t> findIds(const CompareOptions& options, const Image& test, const Image& reference) {
     const auto channelOf = [](const Image& image) {
-        const std::optional<std::size_t> long_ = findChannel(image, "material.ID");
-        return long_ ? long_ : findChannel(image, "ID");
+        const std::optional<std::size_t> layered = findChannel(image, "material.ID");
+        return layered ? layered : findChannel(image, "ID");
     };
     if (!options.materialImage.empty()) {
         Image image = readImage(options.materialImage);

@@ -64,6 +64,8 @@ struct Reference::Implementation {
           film(settings.width, settings.height),
           arena(settings.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(settings.threads)) {}
 
+    /// Through a place in a pixel: x and y in [0, 1], from its upper left corner.
+    trace::Ray rayWithin(std::uint32_t pixel, double x, double y) const;
     trace::Ray ray(std::uint32_t pixel, std::uint32_t sample) const;
     glm::dvec3 radiance(std::uint32_t pixel, std::uint32_t sample, Incidents& incidents) const;
     void look(std::uint32_t pixel);
@@ -72,11 +74,17 @@ struct Reference::Implementation {
     std::uint32_t completeSpp() const;
 };
 
+trace::Ray Reference::Implementation::rayWithin(std::uint32_t pixel, double x, double y) const {
+    const std::uint32_t column = pixel % film.width;
+    const std::uint32_t row = pixel / film.width;
+    return view.ray(column + x, row + y);
+}
+
 trace::Ray Reference::Implementation::ray(std::uint32_t pixel, std::uint32_t sample) const {
     const std::uint32_t place = sample % (settings.samples * settings.samples);
-    const double x = pixel % film.width + (place % settings.samples + 0.5) / settings.samples;
-    const double y = pixel / film.width + (place / settings.samples + 0.5) / settings.samples;
-    return view.ray(x, y);
+    const std::uint32_t column = place % settings.samples;
+    const std::uint32_t row = place / settings.samples;
+    return rayWithin(pixel, (column + 0.5) / settings.samples, (row + 0.5) / settings.samples);
 }
 
 /// What does not depend on samples: where the picture shows a surface, and of which material.
@@ -87,7 +95,7 @@ void Reference::Implementation::look(std::uint32_t pixel) {
         hits += geometry.visible(ray(pixel, place)) ? 1 : 0;
     }
     film.coverage[pixel] = static_cast<float>(hits) / static_cast<float>(places);
-    if (const auto hit = geometry.visible(view.ray(pixel % film.width + 0.5, pixel / film.width + 0.5))) {
+    if (const auto hit = geometry.visible(rayWithin(pixel, 0.5, 0.5))) {
         const std::uint32_t material = geometry.surfaceAt(*hit).material;
         film.materials[pixel] = material == scene::none ? 0 : material + 1;
     }

@@ -142,8 +142,8 @@ public:
     std::vector<EffectTime> takeRows() { return std::move(rows_); }
 
 private:
-    Techniques techniquesOr(Techniques usual) const {
-        return options_.techniques.empty() ? std::move(usual) : options_.techniques;
+    Techniques techniquesOr(const Techniques& usual) const {
+        return options_.techniques.empty() ? usual : options_.techniques;
     }
 
     NacreContextInfo makeContextInfo() const {

@@ -63,8 +63,10 @@ Bodies makeBodies(VkExtent2D extent, double coverage) {
     bodies.radius =
         static_cast<float>(std::sqrt(coverage * 4 * halfWidth * halfHeight / (15 * std::numbers::pi_v<double>)));
     for (int i = 0; i < 15; ++i) {
-        bodies.centers.push_back({halfWidth * 0.4f * static_cast<float>(i % 5 - 2),
-                                  halfHeight * 0.66f * static_cast<float>(i / 5 - 1), -middle});
+        const int column = i % 5 - 2;
+        const int row = i / 5 - 1;
+        bodies.centers.push_back({halfWidth * 0.4f * static_cast<float>(column),
+                                  halfHeight * 0.66f * static_cast<float>(row), -middle});
     }
     return bodies;
 }

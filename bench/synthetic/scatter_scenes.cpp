@@ -10,7 +10,7 @@ namespace nacre::bench {
 namespace {
 
 using std::numbers::pi;
-constexpr double reach = 12.5; // mm, within which 99.7 % of the widest test material's light leaves
+constexpr double reachMillimeters = 12.5; // mm, within which 99.7 % of the widest test material's light leaves
 
 // Hard shadow edges, bright and dark discs, and a corner with noise in every pixel. Fixed to the scene.
 class Lighting {
@@ -118,7 +118,7 @@ ScatterScene makeScatterScene(const SceneSettings& settings) {
     const double width = settings.width;
     const double height = settings.height;
     const double distance = 1.2 * width;
-    const double millimetersPerPixel = reach / settings.footprint;
+    const double millimetersPerPixel = reachMillimeters / settings.footprint;
     const Lighting lighting(dice, width, height);
     const Surface surface = kind.makeSurface(dice, {width, height, static_cast<int>(scene.materials.size())});
     for (int row = 0; row < settings.height; ++row) {
