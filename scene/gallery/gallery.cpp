@@ -1,15 +1,13 @@
 #include "scene/gallery/gallery.hpp"
 
 #include "nacre/presets.hpp"
-#include "scene/gallery/bodies.hpp"
 #include "scene/gallery/plinth.hpp"
+#include "scene/gallery/stored_bodies.hpp"
 #include "scene/surface_material.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <array>
-#include <functional>
-#include <future>
 
 namespace nacre::scene {
 
@@ -17,7 +15,6 @@ namespace {
 
 using gallery::Body;
 
-constexpr std::size_t totalTriangles = 436508; // as many as the thesis's five models together
 constexpr float millimetre = 0.001f;
 constexpr float plinthHeight = 0.06f, potHeight = 0.066f;
 
@@ -27,15 +24,13 @@ struct Painting {
     Texture (*make)() = nullptr;
 };
 
-/// A body, what it is made of and where it stands.
+/// A stored body, what it is made of and where it stands.
 struct Exhibit {
     const char* name;
     const char* preset;
-    Body (*make)(std::size_t triangles);
-    std::size_t triangles; ///< 0: what the others leave
-    glm::vec3 place;       ///< [m] where its lowest point stands
-    float heading;         ///< [deg] about +Y
-    float roll;            ///< [deg] about +Z, before
+    glm::vec3 place; ///< [m] where its lowest point stands
+    float heading;   ///< [deg] about +Y
+    float roll;      ///< [deg] about +Z, before
     glm::vec3 color;
     float roughness;
     Painting painting;
@@ -46,11 +41,11 @@ constexpr Painting flames{gallery::shellTextureCoordinates, gallery::makeShellTe
 constexpr glm::vec3 white{1}, jade{0.34f, 0.62f, 0.40f}, marble{0.86f, 0.84f, 0.80f}, green{0.22f, 0.46f, 0.10f};
 
 constexpr std::array<Exhibit, 5> exhibits{{
-    {"head", "skin", gallery::makeHead, 120000, {-0.165f, 0, -0.02f}, 11, 0, white, 0.42f, skin},
-    {"dragon", "jade", gallery::makeDragon, 150000, {0.27f, 0, -0.05f}, -14, 0, jade, 0.22f, {}},
-    {"logo", "marble", gallery::makeLogo, 24000, {0.055f, 0, 0.185f}, 0, 0, marble, 0.25f, {}},
-    {"shell", "nacre", gallery::makeShell, 46000, {-0.365f, 0, 0.08f}, -28, -62, white, 0.2f, flames},
-    {"plant", "leaf", gallery::makePlant, 0, {0.05f, 0.86f * potHeight, -0.12f}, 0, 0, green, 0.38f, {}},
+    {"head", "skin", {-0.165f, 0, -0.02f}, 11, 0, white, 0.42f, skin},
+    {"dragon", "jade", {0.27f, 0, -0.05f}, -14, 0, jade, 0.22f, {}},
+    {"logo", "marble", {0.055f, 0, 0.185f}, 0, 0, marble, 0.25f, {}},
+    {"shell", "nacre", {-0.365f, 0, 0.08f}, -28, -62, white, 0.2f, flames},
+    {"plant", "leaf", {0.05f, 0.86f * potHeight, -0.12f}, 0, 0, green, 0.38f, {}},
 }};
 
 std::uint32_t addSurface(Scene& scene, const std::string& name, const glm::vec3& color, float roughness) {
@@ -122,17 +117,10 @@ std::uint32_t addSurfaceOf(Scene& scene, const Exhibit& exhibit) {
 }
 
 void addExhibits(Scene& scene) {
-    std::size_t left = totalTriangles - triangleCount(scene);
-    for (const Exhibit& exhibit : exhibits)
-        left -= exhibit.triangles;
-    std::array<std::future<Body>, exhibits.size()> bodies;
-    for (std::size_t i = 0; i < exhibits.size(); ++i)
-        bodies[i] =
-            std::async(std::launch::async, exhibits[i].make, exhibits[i].triangles ? exhibits[i].triangles : left);
-    for (std::size_t i = 0; i < exhibits.size(); ++i) {
-        const std::uint32_t surface = addSurfaceOf(scene, exhibits[i]);
-        Mesh mesh = toMesh(exhibits[i], bodies[i].get());
-        const glm::mat4 transform = standing(exhibits[i], mesh);
+    for (const Exhibit& exhibit : exhibits) {
+        const std::uint32_t surface = addSurfaceOf(scene, exhibit);
+        Mesh mesh = toMesh(exhibit, gallery::storedBody(exhibit.name));
+        const glm::mat4 transform = standing(exhibit, mesh);
         addInstance(scene, std::move(mesh), surface, transform);
     }
 }

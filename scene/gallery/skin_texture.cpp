@@ -11,19 +11,19 @@ namespace nacre::scene::gallery {
 
 namespace {
 
-constexpr glm::vec3 middle{0, 95, 0};
+constexpr glm::vec3 headMiddle{0, 95, 0};
 constexpr float headRadius = 100; // mm, only to give the map's angles a length
 
 /// The map in mm along the head from where +Z leaves it.
 glm::vec2 onMap(const glm::vec3& p) {
-    const glm::vec3 d = p - middle;
+    const glm::vec3 d = p - headMiddle;
     const float across = std::sqrt(d.x * d.x + d.y * d.y);
     return across > 0 ? glm::vec2(d.x, d.y) * (headRadius * arcTangent(across, d.z) / across) : glm::vec2(0);
 }
 
 /// Tints the skin within some distance of a point.
 struct Patch {
-    glm::vec3 place; ///< of the character's left side or the middle; the other side is its mirror image
+    glm::vec3 place; ///< of the character's left side or the headMiddle; the other side is its mirror image
     glm::vec2 radii;
     glm::vec3 tint;
 };
