@@ -3,6 +3,10 @@
 
 #include "image/image_file.hpp"
 
+#include <span>
+#include <string>
+#include <vector>
+
 namespace nacre {
 
 /// Most pixels of a float image (1 GiB as RGBA).
@@ -19,7 +23,28 @@ enum class ExrChannels { All, Color };
 
 Image decodeExr(std::span<const std::uint8_t> bytes, const std::string& name, ExrChannels wanted);
 Image decodeHdr(std::span<const std::uint8_t> bytes, const std::string& name);
-/// What stb_image knows, with 8 or 16 bits.
+/// A picture of whole numbers, as its file has it.
+struct IntegerImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::size_t channels = 0;         ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA
+    std::vector<std::uint8_t> bytes;  ///< 8 bits a sample; empty where there are words
+    std::vector<std::uint16_t> words; ///< 16 bits a sample
+};
+
+/// Throws FileError unless a picture of whole numbers of that size may be read.
+void requireShowable(const std::string& name, std::uint64_t width, std::uint64_t height);
+
+bool isPng(std::span<const std::uint8_t> bytes);
+bool isJpeg(std::span<const std::uint8_t> bytes);
+bool isWebp(std::span<const std::uint8_t> bytes);
+IntegerImage decodePng(std::span<const std::uint8_t> bytes, const std::string& name);
+IntegerImage decodeJpeg(std::span<const std::uint8_t> bytes, const std::string& name);
+IntegerImage decodeWebp(std::span<const std::uint8_t> bytes, const std::string& name);
+/// BMP and TGA.
+IntegerImage decodeBitmap(std::span<const std::uint8_t> bytes, const std::string& name);
+
+/// Any of the four, with 8 or 16 bits.
 Image decodeShown(std::span<const std::uint8_t> bytes, const std::string& name);
 
 } // namespace nacre

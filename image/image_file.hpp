@@ -12,8 +12,8 @@ namespace nacre {
 inline constexpr std::uint32_t maxImageSide = 16384;
 
 /// Reads an image of any kind, told apart by content, with the channels that it has. OpenEXR and Radiance files are
-/// linear; R, G, B and A come first, the others follow by name. Others (PNG, JPEG, BMP, TGA, PSD; 8 and 16 bits) are
-/// values in [0, 1] with Encoding::Srgb, and their channels Y, YA, RGB or RGBA.
+/// linear; R, G, B and A come first, the others follow by name. Others (PNG with 8 and 16 bits, JPEG, WebP, BMP, TGA)
+/// are values in [0, 1] with Encoding::Srgb, and their channels Y, YA, RGB or RGBA.
 Image readImage(const std::filesystem::path& file);
 
 /// Reads an OpenEXR or a Radiance file as linear R, G, B and A; alpha is 1 where the file has none, and a file with one
@@ -46,7 +46,8 @@ struct ByteImage {
     std::vector<std::uint8_t> rgba; ///< width · height · 4 bytes, row 0 at the top
 };
 
-/// Decodes an 8-bit PNG, JPEG, BMP, TGA or PSD from memory; `name` is what an error calls it.
+/// Decodes a PNG, JPEG, WebP, BMP or TGA from memory; `name` is what an error calls it. Of 16 bits it keeps the
+/// upper 8.
 ByteImage decodeBytes(std::span<const std::uint8_t> bytes, const std::string& name);
 
 } // namespace nacre

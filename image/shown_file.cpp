@@ -1,12 +1,10 @@
-// PNG, JPEG and what else is made to be shown, by stb_image; the Radiance writer is stb's, too.
+// Pictures made to be shown: which decoder reads them, and PNG, JPEG and Radiance files written by stb_image_write.
 #include "image/codecs.hpp"
 #include "nacre/files.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
 namespace nacre {
@@ -45,53 +43,44 @@ std::vector<std::uint8_t> toBytes(const Image& image) {
     return bytes;
 }
 
-struct Size {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
+struct Format {
+    bool (*matches)(std::span<const std::uint8_t> bytes);
+    IntegerImage (*decode)(std::span<const std::uint8_t> bytes, const std::string& name);
 };
 
-/// Throws unless it is an image that stb_image reads, of a size that is read.
-Size findSize(std::span<const std::uint8_t> bytes, const std::string& name) {
-    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-        throw FileError(name + ": image is larger than 2 GiB");
+IntegerImage decodeInteger(std::span<const std::uint8_t> bytes, const std::string& name) {
+    constexpr Format formats[] = {{isPng, decodePng}, {isJpeg, decodeJpeg}, {isWebp, decodeWebp}};
+    for (const Format& format : formats) {
+        if (format.matches(bytes)) {
+            return format.decode(bytes, name);
+        }
     }
-    Size size;
-    const int count = static_cast<int>(bytes.size());
-    if (stbi_is_hdr_from_memory(bytes.data(), count) != 0 || // of which stb_image would make 8 bits
-        stbi_info_from_memory(bytes.data(), count, &size.width, &size.height, &size.channels) == 0 || size.width <= 0 ||
-        size.height <= 0) {
-        throw FileError(name + ": is not a readable PNG, JPEG, BMP, TGA or PSD image of at most " +
-                        std::to_string(maxImageSide) + " pixels a side");
-    }
-    if (static_cast<std::uint32_t>(std::max(size.width, size.height)) > maxImageSide || size.pixels() > maxBytePixels) {
-        throw FileError(name + ": image of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                        " pixels is too large, at most " + std::to_string(maxImageSide) + " a side and " +
-                        std::to_string(maxBytePixels) + " in all");
-    }
-    return size;
+    return decodeBitmap(bytes, name);
 }
 
-template <typename Sample> using Decoder = Sample* (*)(const stbi_uc*, int, int*, int*, int*, int);
-
-/// The samples as stb_image decodes them, `channels` a pixel.
-template <typename Sample>
-std::unique_ptr<Sample, decltype(&stbi_image_free)> decode(Decoder<Sample> decoder, std::span<const std::uint8_t> bytes,
-                                                           const std::string& name, Size& size, int channels) {
-    std::unique_ptr<Sample, decltype(&stbi_image_free)> samples(
-        decoder(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &size.channels, channels),
-        stbi_image_free);
-    if (!samples) {
-        throw FileError(name + ": image cannot be decoded: " + stbi_failure_reason());
+/// Grey fills red, green and blue; alpha is 255 where there is none.
+std::vector<std::uint8_t> toRgba(const std::vector<std::uint8_t>& samples, std::size_t channels) {
+    const std::size_t pixels = samples.size() / channels;
+    const bool isColor = channels >= 3;
+    const bool hasAlpha = channels % 2 == 0;
+    std::vector<std::uint8_t> rgba(pixels * 4, 255);
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        const std::uint8_t* from = &samples[pixel * channels];
+        std::uint8_t* to = &rgba[pixel * 4];
+        for (std::size_t i = 0; i < 3; ++i) {
+            to[i] = from[isColor ? i : 0];
+        }
+        if (hasAlpha) {
+            to[3] = from[channels - 1];
+        }
     }
-    return samples;
+    return rgba;
 }
 
-template <typename Sample> void fill(std::vector<float>& values, const Sample* samples) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = static_cast<float>(samples[i]) / static_cast<float>(std::numeric_limits<Sample>::max());
-    }
+template <typename Sample> void fill(std::vector<float>& values, const std::vector<Sample>& samples) {
+    std::ranges::transform(samples, values.begin(), [](Sample sample) {
+        return static_cast<float>(sample) / static_cast<float>(std::numeric_limits<Sample>::max());
+    });
 }
 
 } // namespace
@@ -143,25 +132,34 @@ void writeHdr(const Path& file, const Image& image) {
     writeFileAtomically(file, encoded);
 }
 
+void requireShowable(const std::string& name, std::uint64_t width, std::uint64_t height) {
+    if (width == 0 || height == 0 || std::max(width, height) > maxImageSide || width * height > maxBytePixels) {
+        throw FileError(name + ": image of " + std::to_string(width) + " x " + std::to_string(height) +
+                        " pixels cannot be read, 1 to " + std::to_string(maxImageSide) + " a side and at most " +
+                        std::to_string(maxBytePixels) + " in all");
+    }
+}
+
 ByteImage decodeBytes(std::span<const std::uint8_t> bytes, const std::string& name) {
-    Size size = findSize(bytes, name);
-    const auto samples = decode<stbi_uc>(stbi_load_from_memory, bytes, name, size, STBI_rgb_alpha);
-    return {static_cast<std::uint32_t>(size.width),
-            static_cast<std::uint32_t>(size.height),
-            {samples.get(), samples.get() + 4 * size.pixels()}};
+    IntegerImage image = decodeInteger(bytes, name);
+    if (!image.words.empty()) {
+        image.bytes.resize(image.words.size());
+        std::ranges::transform(image.words, image.bytes.begin(),
+                               [](std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); });
+    }
+    return {image.width, image.height,
+            image.channels == 4 ? std::move(image.bytes) : toRgba(image.bytes, image.channels)};
 }
 
 Image decodeShown(std::span<const std::uint8_t> bytes, const std::string& name) {
-    Size size = findSize(bytes, name);
-    requireReadable(name, size.width, size.height, static_cast<std::size_t>(size.channels));
+    const IntegerImage integers = decodeInteger(bytes, name);
+    requireReadable(name, integers.width, integers.height, integers.channels);
     const std::vector<std::string> channels[] = {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    Image image = makeImage(static_cast<std::uint32_t>(size.width), static_cast<std::uint32_t>(size.height),
-                            channels[std::clamp(size.channels, 1, 4) - 1], Encoding::Srgb);
-    const int count = static_cast<int>(image.channels.size());
-    if (stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0) {
-        fill(image.values, decode<stbi_us>(stbi_load_16_from_memory, bytes, name, size, count).get());
+    Image image = makeImage(integers.width, integers.height, channels[integers.channels - 1], Encoding::Srgb);
+    if (integers.words.empty()) {
+        fill(image.values, integers.bytes);
     } else {
-        fill(image.values, decode<stbi_uc>(stbi_load_from_memory, bytes, name, size, count).get());
+        fill(image.values, integers.words);
     }
     return image;
 }
