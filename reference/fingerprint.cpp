@@ -88,7 +88,9 @@ std::string fingerprintOf(const scene::Scene& scene) {
     for (const scene::Texture& texture : scene.textures) {
         print.addValue(texture.width);
         print.addValue(texture.srgb);
-        print.addValue(texture.repeat);
+        print.addValue(texture.wrapU);
+        print.addValue(texture.wrapV);
+        print.addValue(texture.nearest);
         print.addAll(texture.pixels);
     }
     for (const scene::Surface& surface : scene.surfaces) {

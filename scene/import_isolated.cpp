@@ -108,14 +108,15 @@ template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, Texture>
 void exchange(A& archive, T& texture) {
     archive(texture.name), archive(texture.width), archive(texture.height), archive(texture.srgb);
-    archive(texture.repeat), archive(texture.pixels);
+    archive(texture.wrapU), archive(texture.wrapV), archive(texture.nearest), archive(texture.pixels);
 }
 template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, Surface>
 void exchange(A& archive, T& s) {
     archive(s.name), archive(s.baseColor), archive(s.metallic), archive(s.roughness), archive(s.specular);
     archive(s.normalScale), archive(s.emission), archive(s.baseColorTexture), archive(s.normalTexture);
-    archive(s.metallicRoughnessTexture), archive(s.thicknessTexture), archive(s.uvTransform), archive(s.alphaMask);
+    archive(s.metallicRoughnessTexture), archive(s.thicknessTexture), archive(s.emissionTexture);
+    archive(s.uvTransform), archive(s.alphaMask);
     archive(s.alphaCutoff), archive(s.doubleSided), archive(s.thickness), archive(s.material);
 }
 template <typename A, typename T>

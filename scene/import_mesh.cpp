@@ -115,6 +115,14 @@ void checkMesh(Mesh& mesh, const std::string& where) {
     }
 }
 
+glm::vec<4, std::uint16_t> vertexColor(const glm::vec4& color) {
+    glm::vec<4, std::uint16_t> result;
+    for (int i = 0; i < 4; ++i) {
+        result[i] = static_cast<std::uint16_t>(color[i] > 0 ? std::lround(std::min(color[i], 1.0f) * 65535) : 0);
+    }
+    return result;
+}
+
 void weldVertices(Mesh& mesh) {
     if (mesh.indices.empty()) {
         mesh.vertices.clear();

@@ -37,6 +37,9 @@ std::vector<std::uint32_t> triangleList(PrimitiveMode mode, std::span<const std:
 /// `maxCoordinate`; texture coordinates that are not finite become 0.
 void checkMesh(Mesh& mesh, const std::string& where);
 
+/// A linear colour as vertices have it: cut off at 0 and 1, what is not a number is 0.
+glm::vec<4, std::uint16_t> vertexColor(const glm::vec4& color);
+
 /// Merges vertices that are equal in every member.
 void weldVertices(Mesh& mesh);
 

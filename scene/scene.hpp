@@ -28,6 +28,7 @@ struct Vertex {
     glm::vec3 normal{0, 1, 0};
     glm::vec4 tangent{1, 0, 0, 1}; ///< w is the bitangent's sign, as in glTF
     glm::vec2 uv{0};
+    glm::vec<4, std::uint16_t> color{65535}; ///< multiplies the surface's base colour: linear, 65535 = 1
 };
 
 /// Indexed triangles with one surface.
@@ -38,13 +39,18 @@ struct Mesh {
     std::uint32_t surface = 0;          ///< index into Scene::surfaces
 };
 
+/// What a texture shows outside [0, 1].
+enum class Wrap { Repeat, Mirror, Clamp };
+
 /// 8-bit RGBA pixels, row 0 at the top.
 struct Texture {
     std::string name;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     bool srgb = false;
-    bool repeat = true;
+    Wrap wrapU = Wrap::Repeat;
+    Wrap wrapV = Wrap::Repeat;
+    bool nearest = false;             ///< magnified without blending texels
     std::vector<std::uint8_t> pixels; ///< width·height·4 bytes
 };
 
@@ -61,6 +67,7 @@ struct Surface {
     std::uint32_t normalTexture = none;
     std::uint32_t metallicRoughnessTexture = none; ///< G roughness, B metallic
     std::uint32_t thicknessTexture = none;         ///< G, multiplies `thickness`
+    std::uint32_t emissionTexture = none;          ///< RGB, multiplies `emission`
     glm::mat3 uvTransform{1};                      ///< KHR_texture_transform, applied to uv
     bool alphaMask = false;
     float alphaCutoff = 0.5f;

@@ -96,6 +96,15 @@ glm::vec2 transformedUv(const scene::Surface& surface, const glm::vec2& uv) {
     return glm::vec2(surface.uvTransform * glm::vec3(uv, 1));
 }
 
+/// Before textures.
+glm::vec4 baseColorAt(const TracedInstance& instance, std::uint32_t triangle, float u, float v) {
+    const auto [a, b, c] = instance.vertices(triangle);
+    const std::vector<scene::Vertex>& vertices = instance.mesh->vertices;
+    const glm::vec4 color = (1 - u - v) * glm::vec4(vertices[a].color) + u * glm::vec4(vertices[b].color) +
+                            v * glm::vec4(vertices[c].color);
+    return instance.surface->baseColor * color / 65535.0f;
+}
+
 glm::vec2 textureCoordinates(const TracedInstance& instance, std::uint32_t triangle, float u, float v) {
     const auto [a, b, c] = instance.vertices(triangle);
     const std::vector<scene::Vertex>& vertices = instance.mesh->vertices;
@@ -110,11 +119,12 @@ void rejectHoles(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[i] == 0) {
             continue;
         }
-        float alpha = surface.baseColor.a;
+        const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, i);
+        const float u = RTCHitN_u(arguments->hit, arguments->N, i);
+        const float v = RTCHitN_v(arguments->hit, arguments->N, i);
+        float alpha = baseColorAt(*masked.instance, triangle, u, v).a;
         if (surface.baseColorTexture != scene::none) {
-            const glm::vec2 uv = textureCoordinates(*masked.instance, RTCHitN_primID(arguments->hit, arguments->N, i),
-                                                    RTCHitN_u(arguments->hit, arguments->N, i),
-                                                    RTCHitN_v(arguments->hit, arguments->N, i));
+            const glm::vec2 uv = textureCoordinates(*masked.instance, triangle, u, v);
             alpha *= sampleTexture(masked.scene->textures[surface.baseColorTexture], uv).a;
         }
         if (alpha < surface.alphaCutoff) {
@@ -312,7 +322,7 @@ SurfacePoint Geometry::surfaceAt(const Hit& hit) const {
     point.shadingNormal = point.vertexNormal;
     point.shadowOrigin = point.position + rise;
     const glm::vec2 uv = textureCoordinates(instance, hit.triangle, hit.u, hit.v);
-    glm::vec4 color = surface.baseColor;
+    glm::vec4 color = baseColorAt(instance, hit.triangle, hit.u, hit.v);
     if (surface.baseColorTexture != scene::none) {
         color *= sampleTexture(textures[surface.baseColorTexture], uv);
     }

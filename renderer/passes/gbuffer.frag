@@ -9,6 +9,7 @@ layout(location = 0) in vec3 inNormal;
 layout(location = 1) in vec4 inTangent;
 layout(location = 2) in vec2 inUv;
 layout(location = 3) in float inDepth;
+layout(location = 4) in vec4 inColor;
 
 // The order of GBuffer::Attachment.
 layout(location = 0) out float outDepth;
@@ -35,7 +36,7 @@ vec3 shadingNormal(SurfaceConstants surface, vec3 normal) {
 
 void main() {
     SurfaceConstants surface = surfaces[draw.index.x];
-    vec4 color = baseColor(surface, inUv);
+    vec4 color = baseColor(surface, inUv, inColor);
     if (alphaMask && color.a < surface.parameters.w) {
         discard;
     }
@@ -60,7 +61,11 @@ void main() {
     outVertexNormal = vec4(normal, 1.0);
     outAlbedo = vec4(color.rgb * (1.0 - metallic), 1.0);
     outReflection = vec4(mix(vec3(0.08 * surface.parameters.z), color.rgb, metallic), roughness);
-    outEmission = vec4(surface.emission.rgb, 1.0);
+    vec3 emission = surface.emission.rgb;
+    if (has(hasEmissionTexture)) {
+        emission *= texture(emissionTexture, inUv).rgb;
+    }
+    outEmission = vec4(emission, 1.0);
     outMaterialId = surface.material.x;
     outThickness = thickness;
 }

@@ -11,11 +11,13 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec4 tangent;
+layout(location = 4) in vec4 color;
 
 layout(location = 0) out vec3 outNormal;
 layout(location = 1) out vec4 outTangent;
 layout(location = 2) out vec2 outUv;
 layout(location = 3) out float outDepth;
+layout(location = 4) out vec4 outColor;
 
 void main() {
     mat3 linear = mat3(draw.worldFromObject);
@@ -26,6 +28,7 @@ void main() {
     outNormal = normalize(side * (cofactors * normal));
     outTangent = vec4(linear * tangent.xyz, tangent.w * side);
     outUv = transformUv(uv);
+    outColor = color;
     outDepth = dot(view.viewRow, world);
     gl_Position = view.clipFromWorld * world;
 }

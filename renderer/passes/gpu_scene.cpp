@@ -15,10 +15,21 @@ struct VertexAttributes {
     glm::vec3 normal;
     glm::vec4 tangent;
     glm::vec2 uv;
+    glm::vec<4, std::uint16_t> color;
 };
 
-constexpr std::array textureTypes{vk::DescriptorType::eCombinedImageSampler, vk::DescriptorType::eCombinedImageSampler,
-                                  vk::DescriptorType::eCombinedImageSampler, vk::DescriptorType::eCombinedImageSampler};
+/// The textures of a surface, as surface_textures.glsl binds them, and the flags that say which it has.
+struct TextureSlot {
+    std::uint32_t scene::Surface::*texture;
+    std::uint32_t flag;
+};
+constexpr std::array textureSlots{
+    TextureSlot{&scene::Surface::baseColorTexture, shared::hasBaseColorTexture},
+    TextureSlot{&scene::Surface::normalTexture, shared::hasNormalTexture},
+    TextureSlot{&scene::Surface::metallicRoughnessTexture, shared::hasMetallicRoughnessTexture},
+    TextureSlot{&scene::Surface::thicknessTexture, shared::hasThicknessTexture},
+    TextureSlot{&scene::Surface::emissionTexture, shared::hasEmissionTexture}};
+constexpr std::size_t slotCount = textureSlots.size();
 
 /// An authored thickness of 0 mm is still authored; the effect reads 0 as "none".
 constexpr float smallestThickness = 1e-3f;
@@ -44,8 +55,8 @@ void checkMaterial(const scene::Surface& surface, std::size_t materialCount) {
 }
 
 void check(const scene::Scene& scene, const scene::Surface& surface) {
-    for (const std::uint32_t texture : {surface.baseColorTexture, surface.normalTexture,
-                                        surface.metallicRoughnessTexture, surface.thicknessTexture}) {
+    for (const TextureSlot& slot : textureSlots) {
+        const std::uint32_t texture = surface.*slot.texture;
         if (texture != scene::none && texture >= scene.textures.size()) {
             throw RendererError("the surface '" + surface.name + "' has texture " + std::to_string(texture) +
                                 ", but the scene has " + std::to_string(scene.textures.size()));
@@ -56,11 +67,9 @@ void check(const scene::Scene& scene, const scene::Surface& surface) {
 
 /// Whether the two are drawn alike but for their constants.
 bool drawnAlike(const scene::Surface& a, const scene::Surface& b) {
-    const auto fixed = [](const scene::Surface& surface) {
-        return std::tuple(surface.baseColorTexture, surface.normalTexture, surface.metallicRoughnessTexture,
-                          surface.thicknessTexture, surface.alphaMask, surface.doubleSided);
-    };
-    return fixed(a) == fixed(b);
+    return a.alphaMask == b.alphaMask && a.doubleSided == b.doubleSided &&
+           std::ranges::all_of(textureSlots,
+                               [&](const TextureSlot& slot) { return a.*slot.texture == b.*slot.texture; });
 }
 
 /// Whether the two have the same holes.
@@ -70,12 +79,11 @@ bool masksAlike(const scene::Surface& a, const scene::Surface& b) {
 }
 
 std::uint32_t makeFlags(const scene::Surface& surface) {
-    const auto bit = [](std::uint32_t texture, std::uint32_t flag) { return texture == scene::none ? 0u : flag; };
-    return bit(surface.baseColorTexture, shared::hasBaseColorTexture) |
-           bit(surface.normalTexture, shared::hasNormalTexture) |
-           bit(surface.metallicRoughnessTexture, shared::hasMetallicRoughnessTexture) |
-           bit(surface.thicknessTexture, shared::hasThicknessTexture) |
-           (surface.doubleSided ? shared::isDoubleSided : 0u);
+    std::uint32_t flags = surface.doubleSided ? shared::isDoubleSided : 0u;
+    for (const TextureSlot& slot : textureSlots) {
+        flags |= surface.*slot.texture == scene::none ? 0u : slot.flag;
+    }
+    return flags;
 }
 
 shared::SurfaceConstants makeSurfaceConstants(const scene::Surface& surface) {
@@ -93,14 +101,20 @@ template <typename T> std::span<const std::byte> bytes(const std::vector<T>& val
     return std::as_bytes(std::span(values));
 }
 
-vk::raii::Sampler makeTextureSampler(const Gpu& gpu, vk::SamplerAddressMode mode) {
+vk::SamplerAddressMode addressMode(scene::Wrap wrap) {
+    using Mode = vk::SamplerAddressMode;
+    constexpr std::array modes{Mode::eRepeat, Mode::eMirroredRepeat, Mode::eClampToEdge};
+    return modes[static_cast<std::size_t>(wrap)];
+}
+
+vk::raii::Sampler makeTextureSampler(const Gpu& gpu, const scene::Texture& texture) {
     return {gpu.device,
-            {.magFilter = vk::Filter::eLinear,
+            {.magFilter = texture.nearest ? vk::Filter::eNearest : vk::Filter::eLinear,
              .minFilter = vk::Filter::eLinear,
              .mipmapMode = vk::SamplerMipmapMode::eLinear,
-             .addressModeU = mode,
-             .addressModeV = mode,
-             .addressModeW = mode,
+             .addressModeU = addressMode(texture.wrapU),
+             .addressModeV = addressMode(texture.wrapV),
+             .addressModeW = addressMode(texture.wrapV),
              .anisotropyEnable = gpu.anisotropic,
              .maxAnisotropy = gpu.anisotropic ? std::min(8.0f, gpu.limits.maxSamplerAnisotropy) : 1.0f,
              .maxLod = VK_LOD_CLAMP_NONE}};
@@ -133,7 +147,7 @@ void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
                              .alphaMask = surface.alphaMask});
         for (const scene::Vertex& vertex : mesh.vertices) {
             positions.push_back(vertex.position);
-            attributes.push_back({vertex.normal, vertex.tangent, vertex.uv});
+            attributes.push_back({vertex.normal, vertex.tangent, vertex.uv, vertex.color});
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
@@ -152,8 +166,6 @@ void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
 }
 
 void GpuScene::uploadTextures(Gpu& gpu, const scene::Scene& scene) {
-    repeatSampler_ = makeTextureSampler(gpu, vk::SamplerAddressMode::eRepeat);
-    clampSampler_ = makeTextureSampler(gpu, vk::SamplerAddressMode::eClampToEdge);
     const scene::Texture white{
         .name = "white", .width = 1, .height = 1, .pixels = std::vector<std::uint8_t>(4, std::uint8_t{255})};
     const auto upload = [&](const scene::Texture& texture) {
@@ -171,6 +183,12 @@ void GpuScene::uploadTextures(Gpu& gpu, const scene::Scene& scene) {
                            .mipLevels =
                                static_cast<std::uint32_t>(std::bit_width(std::max(texture.width, texture.height)))});
         uploadImage(gpu, textures_.back(), bytes(texture.pixels), usage::fragmentRead);
+        const std::tuple kind(texture.wrapU, texture.wrapV, texture.nearest);
+        auto sampler = samplers_.find(kind);
+        if (sampler == samplers_.end()) {
+            sampler = samplers_.emplace(kind, makeTextureSampler(gpu, texture)).first;
+        }
+        textureSamplers_.push_back(&sampler->second);
     };
     std::for_each(scene.textures.begin(), scene.textures.end(), upload);
     upload(white);
@@ -200,17 +218,19 @@ void GpuScene::uploadSurfaces(Gpu& gpu, const scene::Scene& scene, std::uint32_t
     const std::uint32_t count = std::max<std::uint32_t>(static_cast<std::uint32_t>(scene.surfaces.size()), 1);
     constants_ = FrameBuffer(gpu, "surfaces", count * sizeof(shared::SurfaceConstants),
                              vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
-    textureSetLayout_ = makeSetLayout(gpu, textureTypes, vk::ShaderStageFlagBits::eFragment);
-    texturePool_ = makePool(gpu, textureTypes, count);
+    const std::vector types(slotCount, vk::DescriptorType::eCombinedImageSampler);
+    textureSetLayout_ = makeSetLayout(gpu, types, vk::ShaderStageFlagBits::eFragment);
+    texturePool_ = makePool(gpu, types, count);
     const auto binding = [&](std::uint32_t texture) {
-        const bool missing = texture == scene::none;
-        const bool repeat = missing || scene.textures[texture].repeat;
-        return sampled(missing ? textures_.back() : textures_[texture], repeat ? repeatSampler_ : clampSampler_);
+        const std::size_t place = texture == scene::none ? textures_.size() - 1 : texture;
+        return sampled(textures_[place], *textureSamplers_[place]);
     };
     for (const scene::Surface& surface : scene.surfaces) {
         textureSets_.push_back(makeSet(gpu, texturePool_, textureSetLayout_));
-        const std::array bindings{binding(surface.baseColorTexture), binding(surface.normalTexture),
-                                  binding(surface.metallicRoughnessTexture), binding(surface.thicknessTexture)};
+        std::vector<Binding> bindings;
+        for (const TextureSlot& slot : textureSlots) {
+            bindings.push_back(binding(surface.*slot.texture));
+        }
         writeSet(gpu, textureSets_.back(), bindings);
     }
 }
@@ -230,7 +250,11 @@ std::vector<vk::VertexInputAttributeDescription> GpuScene::vertexAttributes() {
         {.location = 3,
          .binding = 1,
          .format = vk::Format::eR32G32B32A32Sfloat,
-         .offset = offsetof(VertexAttributes, tangent)}};
+         .offset = offsetof(VertexAttributes, tangent)},
+        {.location = 4,
+         .binding = 1,
+         .format = vk::Format::eR16G16B16A16Unorm,
+         .offset = offsetof(VertexAttributes, color)}};
 }
 
 void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout, vk::Pipeline opaque,

@@ -5,6 +5,9 @@
 #include "renderer/vulkan/descriptor_sets.hpp"
 #include "scene/scene.hpp"
 
+#include <map>
+#include <tuple>
+
 namespace nacre::renderer {
 
 /// One instance, as it is drawn.
@@ -34,7 +37,8 @@ public:
     std::uint64_t casterVersion() const { return casterVersion_; }
     /// shared::SurfaceConstants, one a surface.
     const FrameBuffer& surfaces() const { return constants_; }
-    /// Set 1 of every pipeline that draws the scene: base colour, normal, metallic-roughness, thickness textures.
+    /// Set 1 of every pipeline that draws the scene: base colour, normal, metallic-roughness, thickness,
+    /// emission textures.
     const vk::raii::DescriptorSetLayout& textureSetLayout() const { return textureSetLayout_; }
 
     static std::vector<vk::VertexInputBindingDescription> vertexBindings();
@@ -61,8 +65,8 @@ private:
     Buffer indices_;
     FrameBuffer constants_;
     std::vector<Image> textures_; ///< the scene's, then a white one
-    vk::raii::Sampler repeatSampler_ = nullptr;
-    vk::raii::Sampler clampSampler_ = nullptr;
+    std::map<std::tuple<scene::Wrap, scene::Wrap, bool>, vk::raii::Sampler> samplers_; ///< by wraps and `nearest`
+    std::vector<const vk::raii::Sampler*> textureSamplers_;                            ///< one a texture
     vk::raii::DescriptorSetLayout textureSetLayout_ = nullptr;
     vk::raii::DescriptorPool texturePool_ = nullptr;
     std::vector<vk::raii::DescriptorSet> textureSets_; ///< one a surface

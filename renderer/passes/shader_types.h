@@ -23,7 +23,8 @@ NACRE_CONSTANT hasBaseColorTexture = 1;
 NACRE_CONSTANT hasNormalTexture = 2;
 NACRE_CONSTANT hasMetallicRoughnessTexture = 4;
 NACRE_CONSTANT hasThicknessTexture = 8;
-NACRE_CONSTANT isDoubleSided = 16;
+NACRE_CONSTANT hasEmissionTexture = 16;
+NACRE_CONSTANT isDoubleSided = 32;
 
 /// LightConstants::kind.x, as NacreLightKind
 NACRE_CONSTANT lightDirectional = 0;

@@ -10,13 +10,14 @@ layout(set = 0, binding = 0, std430) readonly buffer Layers {
 layout(location = 0) in vec3 inFromOrigin;
 #ifdef ALPHA_MASK
 layout(location = 1) in vec2 inUv;
+layout(location = 2) in vec4 inColor;
 #endif
 layout(location = 0) out float outDepth;
 
 void main() {
 #ifdef ALPHA_MASK
     SurfaceConstants surface = surfaces[draw.index.x];
-    if (baseColor(surface, inUv).a < surface.parameters.w) {
+    if (baseColor(surface, inUv, inColor).a < surface.parameters.w) {
         discard;
     }
 #endif

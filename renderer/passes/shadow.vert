@@ -10,7 +10,9 @@ layout(set = 0, binding = 0, std430) readonly buffer Layers {
 layout(location = 0) in vec3 position;
 #ifdef ALPHA_MASK
 layout(location = 1) in vec2 uv;
+layout(location = 4) in vec4 color;
 layout(location = 1) out vec2 outUv;
+layout(location = 2) out vec4 outColor;
 #endif
 layout(location = 0) out vec3 outFromOrigin;
 
@@ -20,6 +22,7 @@ void main() {
     outFromOrigin = world.xyz - layer.origin.xyz;
 #ifdef ALPHA_MASK
     outUv = transformUv(uv);
+    outColor = color;
 #endif
     gl_Position = layer.clipFromWorld * world;
 }

@@ -65,13 +65,14 @@ ShadowMaps::ShadowMaps(Gpu& gpu, const GpuScene& scene, std::uint32_t layerCount
                                          .vertexAttributes = {vertexAttributes[0]},
                                          .colorFormats = {linearFormat},
                                          .layout = *layout_});
-    masked_ = makeGraphicsPipeline(gpu, {.name = "shadow map, masked",
-                                         .vertexShader = shadow_masked_vert_spv,
-                                         .fragmentShader = shadow_masked_frag_spv,
-                                         .vertexBindings = vertexBindings,
-                                         .vertexAttributes = {vertexAttributes[0], vertexAttributes[1]},
-                                         .colorFormats = {linearFormat},
-                                         .layout = *layout_});
+    masked_ =
+        makeGraphicsPipeline(gpu, {.name = "shadow map, masked",
+                                   .vertexShader = shadow_masked_vert_spv,
+                                   .fragmentShader = shadow_masked_frag_spv,
+                                   .vertexBindings = vertexBindings,
+                                   .vertexAttributes = {vertexAttributes[0], vertexAttributes[1], vertexAttributes[4]},
+                                   .colorFormats = {linearFormat},
+                                   .layout = *layout_});
 }
 
 std::vector<std::uint32_t> ShadowMaps::staleLayers(const GpuScene& scene, std::span<const shared::ShadowLayer> layers) {

@@ -1,9 +1,11 @@
 #include "scene/assimp/assimp_import.hpp"
 
+#include "image/color.hpp"
 #include "nacre/files.hpp"
 #include "scene/assimp/assimp_axes.hpp"
 #include "scene/assimp/assimp_files.hpp"
 #include "scene/assimp/assimp_material.hpp"
+#include "scene/assimp/threemf_unit.hpp"
 #include "scene/import.hpp"
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
@@ -98,6 +100,13 @@ private:
         }
     }
 
+    /// Scans have their colours as bytes, which are made to be shown; the other formats have linear ones.
+    glm::vec4 colorOf(const aiColor4D& color) const {
+        const bool areBytes = extension_ == ".ply" || extension_ == ".off" || extension_ == ".stl";
+        const auto linear = [&](float value) { return areBytes ? decodeSrgb(value) : value; };
+        return {linear(color.r), linear(color.g), linear(color.b), color.a};
+    }
+
     std::uint32_t mesh(unsigned index) {
         if (index >= source_.mNumMeshes) {
             throw SceneError(name_ + ": a node names mesh " + std::to_string(index) + ", but there are only " +
@@ -118,6 +127,9 @@ private:
             vertex.normal = hasNormals ? convert(source.mNormals[i]) : glm::vec3(0);
             if (source.HasTextureCoords(0)) {
                 vertex.uv = glm::vec2(convert(source.mTextureCoords[0][i]));
+            }
+            if (source.HasVertexColors(0)) {
+                vertex.color = vertexColor(colorOf(source.mColors[0][i]));
             }
         }
         mesh.indices.reserve(std::size_t{source.mNumFaces} * 3);
@@ -145,7 +157,11 @@ private:
     }
 
     void chooseUnit() {
-        constexpr std::array statesUnit{".fbx", ".dae", ".3mf", ".blend", ".ifc", ".gltf", ".glb"};
+        if (extension_ == ".3mf") {
+            scene_.metersPerUnit = threemfMetersPerUnit(name_);
+            return;
+        }
+        constexpr std::array statesUnit{".fbx", ".dae", ".blend", ".ifc", ".gltf", ".glb"};
         if (std::ranges::find(statesUnit, extension_) != statesUnit.end()) {
             return;
         }

@@ -5,6 +5,7 @@
 #include "scene/texture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <strings.h>
 
@@ -59,6 +60,19 @@ Texture decodeEmbedded(const aiTexture& embedded, const std::string& field, bool
     return texture;
 }
 
+/// Decals, which show nothing outside, are clamped.
+Wrap wrapOf(aiTextureMapMode mode) {
+    switch (mode) {
+    case aiTextureMapMode_Mirror:
+        return Wrap::Mirror;
+    case aiTextureMapMode_Clamp:
+    case aiTextureMapMode_Decal:
+        return Wrap::Clamp;
+    default:
+        return Wrap::Repeat;
+    }
+}
+
 float clamp01(float value) {
     return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.0f;
 }
@@ -82,15 +96,21 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initiali
                                        bool srgb) {
     for (const aiTextureType type : types) {
         aiString path;
-        if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS || path.length == 0) {
+        std::array<aiTextureMapMode, 3> modes{};
+        if (material.GetTexture(type, 0, &path, nullptr, nullptr, nullptr, nullptr, modes.data()) != aiReturn_SUCCESS ||
+            path.length == 0) {
             continue;
         }
         const std::string reference = path.C_Str();
-        const auto [entry, isNew] = textures_.try_emplace({reference, srgb}, none);
+        const Wrap wrapU = wrapOf(modes[0]);
+        const Wrap wrapV = wrapOf(modes[1]);
+        const auto [entry, isNew] = textures_.try_emplace({reference, srgb, wrapU, wrapV}, none);
         if (isNew) {
             const std::string field =
                 file_.string() + ": material \"" + material.GetName().C_Str() + "\": texture \"" + reference + "\"";
             scene_.textures.push_back(load(reference, field, srgb));
+            scene_.textures.back().wrapU = wrapU;
+            scene_.textures.back().wrapV = wrapV;
             entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
         }
         return entry->second;

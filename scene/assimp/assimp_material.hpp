@@ -28,7 +28,8 @@ private:
     Scene& scene_;
     std::vector<std::string> inputs_;
     std::map<unsigned, std::uint32_t> surfaces_;
-    std::map<std::pair<std::string, bool>, std::uint32_t> textures_; ///< by reference, sRGB
+    /// By reference, sRGB and wraps.
+    std::map<std::tuple<std::string, bool, Wrap, Wrap>, std::uint32_t> textures_;
 };
 
 } // namespace nacre::scene

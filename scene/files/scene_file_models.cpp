@@ -55,9 +55,9 @@ template <typename T> std::vector<std::uint32_t> keepMarked(std::vector<T>& item
 }
 
 /// The textures a surface refers to.
-std::array<std::uint32_t*, 4> texturesOf(Surface& surface) {
+std::array<std::uint32_t*, 5> texturesOf(Surface& surface) {
     return {&surface.baseColorTexture, &surface.normalTexture, &surface.metallicRoughnessTexture,
-            &surface.thicknessTexture};
+            &surface.thicknessTexture, &surface.emissionTexture};
 }
 
 /// Drops meshes, surfaces, materials and textures that no instance uses.

@@ -20,7 +20,7 @@ Texture paint(const char* name, std::uint32_t size, const std::function<glm::vec
     texture.name = name;
     texture.width = texture.height = size;
     texture.srgb = true;
-    texture.repeat = false;
+    texture.wrapU = texture.wrapV = Wrap::Clamp;
     texture.pixels.reserve(std::size_t(4) * size * size);
     for (std::uint32_t y = 0; y < size; ++y)
         for (std::uint32_t x = 0; x < size; ++x) {

@@ -25,8 +25,9 @@ constexpr std::uint32_t glbBinaryChunk = 0x004e4942;
 constexpr int maxJsonDepth = 64;
 
 /// What is understood beside the extensions of materials.
-constexpr std::array knownExtensions{"EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual",
-                                     "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::array knownExtensions{"EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
+                                     "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_mesh_quantization",
+                                     "KHR_node_visibility",        "KHR_texture_transform"};
 
 bool isKnown(const std::string& extension) {
     return isMaterialExtension(extension) || std::ranges::find(knownExtensions, extension) != knownExtensions.end();
@@ -125,6 +126,19 @@ void checkExtensions(const GltfFile& file, const Json& document) {
     for (const Json& name : *required) {
         if (!name.is_string() || !isKnown(name.get<std::string>())) {
             failGltf(file, "requires the extension " + name.dump() + ", which is not supported");
+        }
+    }
+}
+
+/// A note for each extension that is used and not read.
+void noteExtensions(GltfFile& file, const Json& document) {
+    const auto used = document.find("extensionsUsed");
+    if (used == document.end() || !used->is_array()) {
+        return;
+    }
+    for (const Json& name : *used) {
+        if (name.is_string() && !isKnown(name.get<std::string>())) {
+            file.notes.push_back(file.path.string() + ": uses the extension " + shorten(name) + ", which is not read");
         }
     }
 }
@@ -295,6 +309,7 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
         failGltf(file, "asset.version is " + version.dump() + ", must be \"2.0\"");
     }
     checkExtensions(file, document);
+    noteExtensions(file, document);
     const std::vector<Json> buffers = takeObjects(file, document, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const auto binary = i == 0 ? container.binary : std::span<const std::uint8_t>();

@@ -38,6 +38,7 @@ struct GltfFile {
     std::shared_ptr<LoadBudget> budget;
     std::vector<Bytes> decodedViews; ///< per buffer view; empty unless EXT_meshopt_compression
     std::vector<GltfImage> images;
+    std::vector<std::string> notes; ///< what the file has and nothing here reads
 };
 
 /// The container, the structure, the buffers and the compressed buffer views. `bytes` have to stay where they are for

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_import.hpp"
 
+#include "scene/gltf/gltf_instancing.hpp"
 #include "scene/gltf/gltf_light.hpp"
 #include "scene/gltf/gltf_material.hpp"
 #include "scene/gltf/gltf_mesh.hpp"
@@ -48,6 +49,11 @@ glm::mat4 localTransform(const GltfFile& file, int index) {
     return transform;
 }
 
+bool isVisible(const GltfFile& file, const tinygltf::Node& node, const std::string& field) {
+    const GltfObject extension(file, node.extensions, "KHR_node_visibility", field);
+    return extension.boolean("visible", true);
+}
+
 class GltfImporter {
 public:
     GltfImporter(const GltfFile& file, Scene& scene) : file_(file), scene_(scene), materials_(file, scene) {}
@@ -55,8 +61,11 @@ public:
     void run() {
         placeNodes();
         for (const int node : order_) {
-            addNode(node);
+            if (!hidden_[static_cast<std::size_t>(node)]) {
+                addNode(node);
+            }
         }
+        scene_.notes.insert(scene_.notes.end(), file_.notes.begin(), file_.notes.end());
         if (skipped_ > 0) {
             scene_.notes.push_back(file_.path.string() + ": " + std::to_string(skipped_) +
                                    " primitives of points or lines are not drawn");
@@ -94,6 +103,7 @@ private:
     /// World transforms of all nodes of the scene, parents first.
     void placeNodes() {
         transforms_.assign(file_.model.nodes.size(), glm::mat4(1));
+        hidden_.assign(file_.model.nodes.size(), false);
         std::vector<bool> reached(file_.model.nodes.size());
         std::vector<std::pair<int, int>> stack; // node, parent
         const std::vector<int> first = roots();
@@ -114,8 +124,13 @@ private:
                 transforms_[at] = transforms_[static_cast<std::size_t>(parent)] * transforms_[at];
             }
             order_.push_back(index);
+            // KHR_node_visibility: what is hidden hides its children.
+            hidden_[at] = hidden_[at] || !isVisible(file_, node(index), nodeField(index));
             const std::vector<int>& children = node(index).children;
             for (auto child = children.rbegin(); child != children.rend(); ++child) {
+                if (*child >= 0 && static_cast<std::size_t>(*child) < hidden_.size() && hidden_[at]) {
+                    hidden_[static_cast<std::size_t>(*child)] = true;
+                }
                 stack.emplace_back(*child, index);
             }
         }
@@ -140,6 +155,8 @@ private:
         // A skin or morph weights of its own make a mesh this node's; otherwise nodes share it.
         const bool own = source.skin >= 0 || !source.weights.empty();
         const auto& weights = source.weights.empty() ? mesh.weights : source.weights;
+        const glm::mat4 place = source.skin >= 0 ? glm::mat4(1) : transforms_[static_cast<std::size_t>(index)];
+        const std::vector<glm::mat4> copies = readInstances(file_, source, nodeField(index));
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             std::uint32_t target = none;
             if (own) {
@@ -154,12 +171,13 @@ private:
             if (target == none) {
                 continue;
             }
-            if (scene_.instances.size() >= maxInstances) {
+            if (copies.size() > maxInstances - scene_.instances.size()) {
                 failGltf(file_, "places more than " + std::to_string(maxInstances) + " meshes");
             }
-            const bool skinned = source.skin >= 0;
-            scene_.instances.push_back({source.name.empty() ? mesh.name : source.name, target,
-                                        skinned ? glm::mat4(1) : transforms_[static_cast<std::size_t>(index)]});
+            const std::string& name = source.name.empty() ? mesh.name : source.name;
+            for (const glm::mat4& copy : copies) {
+                scene_.instances.push_back({name, target, place * copy});
+            }
         }
     }
 
@@ -212,6 +230,7 @@ private:
     GltfMaterials materials_;
     std::vector<glm::mat4> transforms_;
     std::vector<int> order_;
+    std::vector<bool> hidden_; ///< per node
     std::map<std::pair<int, std::size_t>, std::uint32_t> meshes_;
     std::size_t skipped_ = 0;
 };

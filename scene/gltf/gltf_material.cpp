@@ -37,6 +37,19 @@ glm::vec4 readColor(const GltfFile& file, const std::vector<double>& values, std
     return color;
 }
 
+Wrap wrapOf(const GltfFile& file, int wrap, const std::string& field) {
+    switch (wrap) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+        return Wrap::Repeat;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+        return Wrap::Mirror;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+        return Wrap::Clamp;
+    default:
+        failGltf(file, field + " is " + std::to_string(wrap) + ", must be 10497, 33648 or 33071");
+    }
+}
+
 glm::vec3 linearMean(const Texture& texture) {
     glm::dvec3 sum(0);
     const std::size_t count = texture.pixels.size() / 4;
@@ -94,7 +107,12 @@ std::uint32_t GltfMaterials::convert(const tinygltf::Material& source, const std
         static_cast<float>(checkRange(file_, source.normalTexture.scale, -1e3, 1e3, field + ".normalTexture.scale"));
     int texCoord = 0;
     readTextures(source, extensions, field, surface, texCoord);
-    surface.alphaMask = source.alphaMode == "MASK" || (source.alphaMode == "BLEND" && surface.baseColorTexture != none);
+    // Without blending, what is more than half transparent is not there.
+    surface.alphaMask = source.alphaMode == "MASK" || source.alphaMode == "BLEND";
+    if (source.alphaMode == "BLEND") {
+        scene_.notes.push_back(file_.path.string() + ": " + field +
+                               ".alphaMode is BLEND; what has an alpha below 0.5 is left out, the rest is opaque");
+    }
     surface.alphaCutoff =
         source.alphaMode == "MASK"
             ? static_cast<float>(checkRange(file_, source.alphaCutoff, 0, 1e3, field + ".alphaCutoff"))
@@ -119,13 +137,19 @@ void GltfMaterials::readTextures(const tinygltf::Material& source, const GltfMat
     const GltfTextureUse metallicRoughness =
         useOf(file_, pbr.metallicRoughnessTexture, field + ".pbrMetallicRoughness.metallicRoughnessTexture");
     const GltfTextureUse& thickness = extensions.thicknessTexture;
+    const GltfTextureUse emission = useOf(file_, source.emissiveTexture, field + ".emissiveTexture");
 
     surface.baseColorTexture = texture(baseColor, true);
     surface.normalTexture = texture(normal, false);
     surface.metallicRoughnessTexture = texture(metallicRoughness, false);
     surface.thicknessTexture = texture(thickness, false);
+    surface.emissionTexture = texture(emission, true);
+    // Where the texture cannot be read, its factor alone would light up what it leaves dark.
+    if (emission.texture >= 0 && surface.emissionTexture == none) {
+        surface.emission = glm::vec3(0);
+    }
     bool first = true;
-    for (const GltfTextureUse* use : {&std::as_const(baseColor), &normal, &metallicRoughness, &thickness}) {
+    for (const GltfTextureUse* use : {&std::as_const(baseColor), &normal, &metallicRoughness, &thickness, &emission}) {
         if (use->texture < 0) {
             continue;
         }
@@ -176,24 +200,47 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfM
     surface.material = addMaterial(scene_, std::move(*material), file_.path.string() + ": " + field);
 }
 
+int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& field) {
+    if (const GltfObject webp(file_, texture.extensions, "EXT_texture_webp", field); webp.exists()) {
+        return webp.index("source");
+    }
+    if (texture.source < 0) {
+        std::string extensions;
+        for (const auto& extension : texture.extensions) {
+            extensions += (extensions.empty() ? " but for " : " and ") + extension.first;
+        }
+        scene_.notes.push_back(file_.path.string() + ": " + field + " has no image" +
+                               (extensions.empty() ? "" : extensions + ", which is not read") + "; it is left out");
+    }
+    return texture.source;
+}
+
 std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
     if (use.texture < 0) {
         return none;
     }
     const tinygltf::Texture& source = elementOf(file_, file_.model.textures, use.texture, use.field + ".index");
     const std::string textureField = "textures[" + std::to_string(use.texture) + "]";
-    const GltfImage& image = elementOf(file_, file_.images, source.source, textureField + ".source");
-    bool repeat = true;
-    if (source.sampler >= 0) {
-        repeat = elementOf(file_, file_.model.samplers, source.sampler, textureField + ".sampler").wrapS !=
-                 TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    const int imageIndex = imageOf(source, textureField);
+    if (imageIndex < 0) {
+        return none;
     }
-    const std::string field = "images[" + std::to_string(source.source) + "]";
+    const GltfImage& image = elementOf(file_, file_.images, imageIndex, textureField + ".source");
+    Texture sampling;
+    if (source.sampler >= 0) {
+        const std::string samplerField = "samplers[" + std::to_string(source.sampler) + "]";
+        const tinygltf::Sampler& sampler =
+            elementOf(file_, file_.model.samplers, source.sampler, textureField + ".sampler");
+        sampling.wrapU = wrapOf(file_, sampler.wrapS, samplerField + ".wrapS");
+        sampling.wrapV = wrapOf(file_, sampler.wrapT, samplerField + ".wrapT");
+        sampling.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    const std::string field = "images[" + std::to_string(imageIndex) + "]";
     // Images that name the same file or bytes are one.
     const std::string place = image.bufferView >= 0  ? "bufferViews[" + std::to_string(image.bufferView) + "]"
                               : isDataUri(image.uri) ? field
                                                      : image.uri;
-    const auto key = std::tuple(place, srgb, repeat);
+    const auto key = std::tuple(place, srgb, sampling.wrapU, sampling.wrapV, sampling.nearest);
     if (const auto found = textures_.find(key); found != textures_.end()) {
         return found->second;
     }
@@ -210,7 +257,9 @@ std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
     file_.budget->addInput(file_.named->totalBytes() - readBefore);
     Texture texture = decodeTexture(bytes, file_.path.string() + ": " + field, srgb);
     texture.name = image.name.empty() ? field : image.name;
-    texture.repeat = repeat;
+    texture.wrapU = sampling.wrapU;
+    texture.wrapV = sampling.wrapV;
+    texture.nearest = sampling.nearest;
     file_.budget->charge(texture);
     scene_.textures.push_back(std::move(texture));
     return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);

@@ -24,13 +24,16 @@ private:
                       const std::string& field, Surface& surface, int& texCoord);
     void readSubsurface(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
                         const std::string& field, Surface& surface);
+    /// The image of a texture; -1, with a note, where nothing that is read supplies one.
+    int imageOf(const tinygltf::Texture& texture, const std::string& field);
     std::uint32_t texture(const GltfTextureUse& use, bool srgb);
 
     const GltfFile& file_;
     Scene& scene_;
     std::map<int, std::uint32_t> surfaces_;
     std::vector<int> texCoords_;
-    std::map<std::tuple<std::string, bool, bool>, std::uint32_t> textures_; ///< by where it is, sRGB, repeat
+    /// By where it is, sRGB and how it is sampled.
+    std::map<std::tuple<std::string, bool, Wrap, Wrap, bool>, std::uint32_t> textures_;
 };
 
 } // namespace nacre::scene

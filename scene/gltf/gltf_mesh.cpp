@@ -17,12 +17,13 @@ const tinygltf::Primitive& primitiveOf(const GltfFile& file, int mesh, std::size
     return file.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
 }
 
-/// The attributes that are read; others (colours, custom ones) are not looked at. Of sets of texture coordinates there
-/// are at most ten, more than anybody has.
+/// The attributes that are read; others (a second set of colours, custom ones) are not looked at. Of sets of texture
+/// coordinates there are at most ten, more than anybody has.
 bool isRead(const std::string& semantic) {
     constexpr std::string_view set = "TEXCOORD_";
-    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" || semantic == "JOINTS_0" ||
-           semantic == "WEIGHTS_0" || (semantic.starts_with(set) && semantic.size() == set.size() + 1);
+    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" || semantic == "COLOR_0" ||
+           semantic == "JOINTS_0" || semantic == "WEIGHTS_0" ||
+           (semantic.starts_with(set) && semantic.size() == set.size() + 1);
 }
 
 void checkCounts(const GltfPrimitive& primitive) {
@@ -47,6 +48,24 @@ void setVec3(std::vector<float>& values, std::size_t i, const glm::vec3& v) {
     values[i * 3] = v.x;
     values[i * 3 + 1] = v.y;
     values[i * 3 + 2] = v.z;
+}
+
+/// The attribute COLOR_0, RGB or RGBA; empty where there is none.
+std::vector<glm::vec4> colorsOf(const GltfPrimitive& source) {
+    const auto found = source.attributes.find("COLOR_0");
+    if (found == source.attributes.end()) {
+        return {};
+    }
+    const auto width = static_cast<std::size_t>(found->second.components);
+    if (width != 3 && width != 4) {
+        throw SceneError(source.field + ".attributes.COLOR_0 has " + std::to_string(width) +
+                         " components, must have 3 or 4");
+    }
+    std::vector<glm::vec4> colors(source.vertexCount, glm::vec4(1));
+    for (std::size_t i = 0; i < found->second.values.size(); ++i) {
+        colors[i / width][static_cast<int>(i % width)] = found->second.values[i];
+    }
+    return colors;
 }
 
 } // namespace
@@ -174,6 +193,7 @@ Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, con
     const std::vector<float> normals = source.attribute("NORMAL", 3);
     const std::vector<float> tangents = source.attribute("TANGENT", 4);
     const std::vector<float> uvs = source.attribute("TEXCOORD_" + std::to_string(texCoord), 2);
+    const std::vector<glm::vec4> colors = colorsOf(source);
     Mesh mesh;
     mesh.indices = source.indices;
     mesh.vertices.resize(source.vertexCount);
@@ -188,6 +208,9 @@ Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, con
         }
         if (!uvs.empty()) {
             vertex.uv = {uvs[i * 2], uvs[i * 2 + 1]};
+        }
+        if (!colors.empty()) {
+            vertex.color = vertexColor(colors[i]);
         }
     }
     checkMesh(mesh, source.field);

@@ -76,6 +76,17 @@ int GltfObject::index(const char* key) const {
     return value->GetNumberAsInt();
 }
 
+bool GltfObject::boolean(const char* key, bool fallback) const {
+    const tinygltf::Value* value = find(key);
+    if (value == nullptr) {
+        return fallback;
+    }
+    if (!value->IsBool()) {
+        failGltf(*file_, fieldOf(key) + " must be true or false");
+    }
+    return value->Get<bool>();
+}
+
 std::string GltfObject::text(const char* key) const {
     const tinygltf::Value* value = find(key);
     return value != nullptr && value->IsString() ? value->Get<std::string>() : std::string();

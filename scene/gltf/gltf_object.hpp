@@ -26,6 +26,7 @@ public:
     bool has(const char* key) const { return exists() && value_->Has(key); }
     double number(const char* key, double fallback, double low, double high) const;
     int index(const char* key) const; ///< -1 when it is missing
+    bool boolean(const char* key, bool fallback) const;
     std::string text(const char* key) const;
     /// As many numbers as `fallback` has, each in [low, high].
     std::vector<double> numbers(const char* key, std::vector<double> fallback, double low, double high) const;

@@ -41,6 +41,8 @@ constexpr std::array materialFields{Field{"/pbrMetallicRoughness", Type::Object}
                                     Field{"/normalTexture/texCoord", Type::Index},
                                     Field{"/normalTexture/scale", Type::Number},
                                     Field{"/emissiveFactor", Type::Numbers},
+                                    Field{"/emissiveTexture", Type::Object},
+                                    Field{"/emissiveTexture/texCoord", Type::Index},
                                     Field{"/alphaMode", Type::Text},
                                     Field{"/alphaCutoff", Type::Number},
                                     Field{"/doubleSided", Type::Boolean},
@@ -62,8 +64,10 @@ constexpr std::array accessorFields{Field{"/bufferView", Type::Index},
 constexpr std::array viewFields{Field{"/buffer", Type::Index}, Field{"/byteOffset", Type::Index},
                                 Field{"/byteLength", Type::Index}, Field{"/byteStride", Type::Index},
                                 Field{"/extensions", Type::Object}};
-constexpr std::array textureFields{Field{"/source", Type::Index}, Field{"/sampler", Type::Index}};
-constexpr std::array samplerFields{Field{"/wrapS", Type::Index}, Field{"/wrapT", Type::Index}};
+constexpr std::array textureFields{Field{"/source", Type::Index}, Field{"/sampler", Type::Index},
+                                   Field{"/extensions", Type::Object}};
+constexpr std::array samplerFields{Field{"/wrapS", Type::Index}, Field{"/wrapT", Type::Index},
+                                   Field{"/magFilter", Type::Index}};
 constexpr std::array skinFields{Field{"/inverseBindMatrices", Type::Index}, Field{"/joints", Type::Indices}};
 constexpr std::array lightFields{Field{"/color", Type::Numbers},
                                  Field{"/intensity", Type::Number},

@@ -112,6 +112,40 @@ TEST_F(GBuffer, TexturesAreSrgbTransformedAndMultiplied) {
     EXPECT_NEAR(at(albedo, 120, 45, 1), 0.5029f, 0.01f);
 }
 
+TEST_F(GBuffer, VertexColorsEmissionAndWrapsAreSeen) {
+    scene::Scene scene = darkScene(2);
+    scene::Mesh mesh = square(2.2f);
+    for (scene::Vertex& vertex : mesh.vertices) {
+        vertex.uv *= 2.0f;
+        vertex.color = {65535, 32768, 0, 65535};
+    }
+    scene::Surface& surface = add(scene, std::move(mesh));
+    surface.baseColor = {1, 1, 1, 1};
+    surface.specular = 0;
+    surface.emission = {0.5f, 0.5f, 0.5f};
+    surface.emissionTexture = 0;
+    // Left half white, right half black, mirrored: white is outside, black in the middle.
+    scene.textures.push_back({.name = "halves",
+                              .width = 2,
+                              .height = 1,
+                              .wrapU = scene::Wrap::Mirror,
+                              .wrapV = scene::Wrap::Clamp,
+                              .nearest = true,
+                              .pixels = {255, 255, 255, 255, 0, 0, 0, 255}});
+    const renderer::Offscreen renderer = render(scene, plainSettings());
+    const Pixels albedo = renderer.read(Output::Albedo);
+    EXPECT_NEAR(at(albedo, 80, 45, 0), 1, 1e-3f);
+    EXPECT_NEAR(at(albedo, 80, 45, 1), 0.5f, 1e-3f);
+    EXPECT_NEAR(at(albedo, 80, 45, 2), 0, 1e-3f);
+    const Pixels radiance = renderer.read(Output::Radiance);
+    for (const std::uint32_t x : {10u, 25u, 135u, 150u}) {
+        EXPECT_NEAR(at(radiance, x, 45), 0.5f, 1e-3f) << x;
+    }
+    for (const std::uint32_t x : {55u, 75u, 85u, 105u}) {
+        EXPECT_NEAR(at(radiance, x, 45), 0, 1e-3f) << x;
+    }
+}
+
 TEST_F(GBuffer, MinifiedTexturesShowTheirAverageEverywhere) {
     // Checks that mip levels are right in every pixel of many small triangles, those at their borders too.
     scene::Scene scene = darkScene(2);

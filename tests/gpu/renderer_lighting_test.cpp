@@ -141,7 +141,7 @@ TEST_F(Lighting, HolesOfAnAlphaMaskLetLightThrough) {
     // Left half opaque, right half a hole.
     scene.textures.push_back(
         {.name = "mask", .width = 2, .height = 1, .pixels = {255, 255, 255, 255, 255, 255, 255, 0}});
-    scene.textures.back().repeat = false;
+    scene.textures.back().wrapU = scene.textures.back().wrapV = scene::Wrap::Clamp;
     scene.lights.push_back(directional({0, 0, -1}));
     scene.cameras[0].position = {0, -1.5f, 1.5f};
     const Pixels irradiance = render(scene, plainSettings()).read(Output::Irradiance);

@@ -279,7 +279,7 @@ TEST(Isolation, BringsEveryMemberAcross) {
         Scene scene;
         scene.name = "name";
         scene.meshes.push_back({"mesh", {Vertex{{1, 2, 3}, {0, 0, 1}, {1, 0, 0, -1}, {0.5f, 0.25f}}}, {0, 0, 0}, 0});
-        scene.textures.push_back({"texture", 1, 1, true, false, {1, 2, 3, 4}});
+        scene.textures.push_back({"texture", 1, 1, true, Wrap::Clamp, Wrap::Mirror, true, {1, 2, 3, 4}});
         Surface surface;
         surface.name = "surface";
         surface.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
@@ -305,7 +305,9 @@ TEST(Isolation, BringsEveryMemberAcross) {
     EXPECT_EQ(scene.meshes.at(0).vertices.at(0).uv, glm::vec2(0.5f, 0.25f));
     EXPECT_EQ(scene.meshes[0].indices.size(), 3u);
     EXPECT_EQ(scene.textures.at(0).pixels, (std::vector<std::uint8_t>{1, 2, 3, 4}));
-    EXPECT_FALSE(scene.textures[0].repeat);
+    EXPECT_EQ(scene.textures[0].wrapU, Wrap::Clamp);
+    EXPECT_EQ(scene.textures[0].wrapV, Wrap::Mirror);
+    EXPECT_TRUE(scene.textures[0].nearest);
     EXPECT_EQ(scene.surfaces.at(0).name, "surface");
     EXPECT_EQ(scene.surfaces[0].baseColor.w, 0.4f);
     EXPECT_TRUE(scene.surfaces[0].doubleSided);
