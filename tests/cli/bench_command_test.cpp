@@ -1,6 +1,6 @@
 // `nacre bench` as a user runs it: a suite from start to end, comparing runs, bad files, and the report in a browser.
 #include "bench/results/results.hpp"
-#include "command.hpp"
+#include "running_nacre.hpp"
 #include "scene/texture.hpp"
 #include "schema.hpp"
 #include "tests/support/bench_sample.hpp"

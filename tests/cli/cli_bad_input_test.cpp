@@ -1,5 +1,5 @@
 // Bad input of `nacre render`: exit code 1, one sentence that names the file or field, and nothing left behind.
-#include "command.hpp"
+#include "running_nacre.hpp"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // `nacre compare`: what it says, what it writes, and what it refuses. Needs no device.
-#include "command.hpp"
+#include "running_nacre.hpp"
 #include "schema.hpp"
 
 #include "image/image_file.hpp"

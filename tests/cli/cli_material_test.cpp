@@ -1,5 +1,5 @@
 // `nacre material`: presets, round trips, and files with faults. Needs no device.
-#include "command.hpp"
+#include "running_nacre.hpp"
 #include "schema.hpp"
 
 #include <nlohmann/json.hpp>

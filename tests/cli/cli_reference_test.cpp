@@ -1,6 +1,6 @@
 // `nacre reference` as a user runs it: pictures, reports, parts, resuming and what it refuses. Needs no device.
-#include "command.hpp"
 #include "image/image_file.hpp"
+#include "running_nacre.hpp"
 #include "schema.hpp"
 
 #include <nlohmann/json.hpp>

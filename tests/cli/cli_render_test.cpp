@@ -1,5 +1,5 @@
 // `nacre render` on real input: the gallery, models of the Debian packages, and the development models when present.
-#include "command.hpp"
+#include "running_nacre.hpp"
 #include "schema.hpp"
 
 #include "image/image_file.hpp"

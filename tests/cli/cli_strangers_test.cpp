@@ -1,5 +1,5 @@
 // What a file from a stranger may do to the terminal and to other files. Needs no more than parsing, but for the last.
-#include "command.hpp"
+#include "running_nacre.hpp"
 
 #include <nlohmann/json.hpp>
 

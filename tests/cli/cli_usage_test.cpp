@@ -1,5 +1,5 @@
 // Help, version, and wrong usage: exit code 2 and one sentence that names the option and its value. Needs no device.
-#include "command.hpp"
+#include "running_nacre.hpp"
 
 #include <filesystem>
 #include <iterator>

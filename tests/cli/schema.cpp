@@ -1,6 +1,6 @@
 #include "schema.hpp"
 
-#include "command.hpp"
+#include "running_nacre.hpp"
 
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>

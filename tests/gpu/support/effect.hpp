@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nacre/material.hpp"
-#include "tests/gpu/support/gpu.hpp"
+#include "tests/gpu/support/headless_gpu.hpp"
 
 #include <array>
 #include <functional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nacre/nacre_parts.h"
-#include "tests/gpu/support/gpu.hpp"
+#include "tests/gpu/support/headless_gpu.hpp"
 
 #include <array>
 #include <map>

@@ -1,4 +1,4 @@
-#include "command.hpp"
+#include "running_nacre.hpp"
 
 #include <fcntl.h>
 #include <signal.h>

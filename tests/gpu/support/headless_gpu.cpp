@@ -1,4 +1,4 @@
-#include "tests/gpu/support/gpu.hpp"
+#include "tests/gpu/support/headless_gpu.hpp"
 
 #include <algorithm>
 #include <stdexcept>
