@@ -2,6 +2,7 @@
 
 #include "bench/effect/effect_context.hpp"
 #include "bench/effect/effect_options.hpp"
+#include "bench/techniques.hpp"
 
 #include <chrono>
 #include <cstdio>

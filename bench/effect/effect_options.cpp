@@ -1,5 +1,7 @@
 #include "bench/effect/effect_options.hpp"
 
+#include "bench/techniques.hpp"
+
 #include <algorithm>
 #include <span>
 #include <sstream>
@@ -25,20 +27,6 @@ Value choose(std::string_view option, std::string_view text, const Choice<Value>
 }
 
 } // namespace
-
-std::vector<NacreTechnique> realTimeTechniques() {
-    std::vector<NacreTechnique> techniques{NACRE_TECHNIQUE_BANK};
-    std::uint32_t count = 0;
-    nacreGetTechniques(&count, nullptr);
-    std::vector<NacreTechnique> all(count);
-    nacreGetTechniques(&count, all.data());
-    for (const NacreTechnique technique : all) {
-        if (technique != NACRE_TECHNIQUE_BRUTE && technique != NACRE_TECHNIQUE_BANK) {
-            techniques.push_back(technique);
-        }
-    }
-    return techniques;
-}
 
 std::vector<NacreTechnique> parseTechniques(const std::string& names) {
     std::vector<NacreTechnique> result;

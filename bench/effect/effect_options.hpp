@@ -20,9 +20,6 @@ struct EffectTimingOptions {
     std::optional<AlbedoUse> albedo;                 ///< an image of it is given, and every material uses it so
 };
 
-/// All but `brute`; `bank` first.
-std::vector<NacreTechnique> realTimeTechniques();
-
 // What the options' values mean. Throw std::invalid_argument naming the option and the value.
 std::vector<NacreTechnique> parseTechniques(const std::string& names);
 bool parseHalfFloats(std::string_view text);

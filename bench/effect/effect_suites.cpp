@@ -2,6 +2,7 @@
 
 #include "bench/effect/transmit_scene.hpp"
 #include "bench/machine.hpp"
+#include "bench/techniques.hpp"
 #include "renderer/passes/copy_floor.hpp"
 
 #include <algorithm>
@@ -118,7 +119,7 @@ public:
         const ScatterSubject subject{
             .kind = SceneKind::Spheres, .extent = options_.extent, .coverage = 0.25, .materials = 1};
         NacreContextInfo contextInfo = makeContextInfo();
-        contextInfo.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
+        contextInfo.techniques = 1u << NACRE_TECHNIQUE_BANK;
         Material material = layeredSkin(subject.layers);
         material.secondSurfaces = false;
         material.translucency = 1;

@@ -1,22 +1,39 @@
 #include "bench/suites/technique_variants.hpp"
 
+#include "bench/techniques.hpp"
+
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace nacre::bench {
 namespace {
 
 using renderer::EffectSettings;
 
-constexpr std::uint32_t thesisRadii[] = {3, 5, 8, 12, 16};
-constexpr std::uint32_t burleyBudgets[] = {8, 16, 32, 64, 128};
-constexpr double pixelShares[] = {0.5, 0.75, 1};
+/// What a technique that has a setting of its own gives up for time. The others give up pixels.
+struct QualitySetting {
+    NacreTechnique technique;
+    const char* unit;
+    std::array<std::uint32_t, 5> values;
+    EffectSettings (*settings)(const View& view, const Size& size, std::uint32_t value);
+};
 
-EffectSettings thesisSettings(const View& view, const Size& size, std::uint32_t radius, bool baked) {
+EffectSettings thesisSettings(const View& view, const Size& size, std::uint32_t radius) {
     return {.technique = NACRE_TECHNIQUE_THESIS,
-            .baselines = {.thesisRadius = radius,
-                          .thesisStrength = thesisStrength(view, size, radius),
-                          .thesisBakedKernel = baked}};
+            .baselines = {.thesisRadius = radius, .thesisStrength = thesisStrength(view, size, radius)}};
 }
+
+EffectSettings burleySettings(const View&, const Size&, std::uint32_t budget) {
+    return {.technique = NACRE_TECHNIQUE_BURLEY, .burleySampleBudget = budget};
+}
+
+constexpr std::array qualitySettings{
+    QualitySetting{NACRE_TECHNIQUE_THESIS, "texels", {3, 5, 8, 12, 16}, thesisSettings},
+    QualitySetting{NACRE_TECHNIQUE_BURLEY, "samples", {8, 16, 32, 64, 128}, burleySettings},
+};
+constexpr double pixelShares[] = {0.5, 0.75, 1};
 
 // The size of the same shape with `share` of the pixels.
 Size shrunk(const Size& size, double share) {
@@ -26,17 +43,26 @@ Size shrunk(const Size& size, double share) {
     return {side(size.width), side(size.height)};
 }
 
+std::vector<Variant> thesisVariants(const View& view, const Size& size, std::uint32_t radius) {
+    EffectSettings thesis = thesisSettings(view, size, radius);
+    thesis.baselines.thesisTransmittance = VK_TRUE;
+    EffectSettings baked = thesis;
+    baked.baselines.thesisBakedKernel = VK_TRUE;
+    return {{"thesis", thesis}, {"thesis-baked", baked}};
+}
+
 } // namespace
 
 std::vector<Variant> scatterVariants(const View& view, const Size& size, std::uint32_t radius) {
-    EffectSettings thesis = thesisSettings(view, size, radius, false);
-    EffectSettings baked = thesisSettings(view, size, radius, true);
-    thesis.baselines.thesisTransmittance = baked.baselines.thesisTransmittance = VK_TRUE;
-    return {{"thesis", thesis},
-            {"thesis-baked", baked},
-            {"separable", {.technique = NACRE_TECHNIQUE_SEPARABLE}},
-            {"burley", {.technique = NACRE_TECHNIQUE_BURLEY}},
-            {"bank", {.technique = NACRE_TECHNIQUE_BANK}}};
+    std::vector<Variant> variants;
+    for (const NacreTechnique technique : realTimeTechniques()) {
+        if (technique == NACRE_TECHNIQUE_THESIS) {
+            std::ranges::move(thesisVariants(view, size, radius), std::back_inserter(variants));
+        } else if (technique != NACRE_TECHNIQUE_BANK_SURFACES) {
+            variants.push_back({nacreTechniqueString(technique), {.technique = technique}});
+        }
+    }
+    return variants;
 }
 
 std::vector<Variant> transmitVariants() {
@@ -46,21 +72,19 @@ std::vector<Variant> transmitVariants() {
 
 std::vector<QualityVariant> qualityVariants(const View& view, const Size& size) {
     std::vector<QualityVariant> variants;
-    const auto add = [&](const char* name, const EffectSettings& effect, double quality, const char* unit,
-                         const Size& pictureSize) {
-        variants.push_back({{name, effect}, quality, unit, pictureSize});
+    const auto add = [&](const EffectSettings& effect, double quality, const char* unit, const Size& pictureSize) {
+        variants.push_back({{nacreTechniqueString(effect.technique), effect}, quality, unit, pictureSize});
     };
-    for (const std::uint32_t radius : thesisRadii) {
-        add("thesis", thesisSettings(view, size, radius, false), radius, "texels", size);
-    }
-    for (const std::uint32_t budget : burleyBudgets) {
-        add("burley", {.technique = NACRE_TECHNIQUE_BURLEY, .burleySampleBudget = budget}, budget, "samples", size);
-    }
-    for (const auto& [name, technique] :
-         {std::pair{"separable", NACRE_TECHNIQUE_SEPARABLE}, std::pair{"bank", NACRE_TECHNIQUE_BANK},
-          std::pair{"bank-surfaces", NACRE_TECHNIQUE_BANK_SURFACES}}) {
+    for (const NacreTechnique technique : realTimeTechniques()) {
+        const auto own = std::ranges::find(qualitySettings, technique, &QualitySetting::technique);
+        if (own != qualitySettings.end()) {
+            for (const std::uint32_t value : own->values) {
+                add(own->settings(view, size, value), value, own->unit, size);
+            }
+            continue;
+        }
         for (const double share : pixelShares) {
-            add(name, {.technique = technique}, 100 * share, "% of the pixels", shrunk(size, share));
+            add({.technique = technique}, 100 * share, "% of the pixels", shrunk(size, share));
         }
     }
     return variants;

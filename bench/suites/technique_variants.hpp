@@ -19,8 +19,9 @@ struct QualityVariant {
     Size size;        ///< of the picture it renders
 };
 
-/// Every scatter technique but the reference, at its default quality, "thesis" also with its kernel compiled in.
-/// `radius` [1 … 16] texels is that of the thesis's kernel, which is in scale for this view and size.
+/// Every scatter technique but the reference, at its default quality, "thesis" also with its kernel compiled in. No
+/// material of a suite asks for second surfaces, so that "bank-surfaces", which keeps them everywhere, is left out as
+/// well. `radius` [1 … 16] texels is that of the thesis's kernel, which is in scale for this view and size.
 std::vector<Variant> scatterVariants(const View& view, const Size& size, std::uint32_t radius);
 
 /// The ways to transmit, scattering off.
