@@ -1,58 +1,16 @@
 // A developer build's shaders: a copy of the project is configured, its shaders are changed and broken, and the effect
 // compiles and loads them again.
-#include "developer/shader_build.hpp"
 #include "effect/api/nacre_developer.h"
 #include "tests/gpu/support/effect.hpp"
-#include "tests/support/temporary_folder.hpp"
-
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
+#include "tests/gpu/support/project_copy.hpp"
 
 using namespace nacre;
 using namespace nacre::tests;
 
 namespace {
 
-/// What the effect's shaders are compiled from, with a build folder of its own.
-class ProjectCopy {
-public:
-    ProjectCopy() {
-        const std::filesystem::path project = NACRE_SOURCE_DIR;
-        for (const char* part : {"CMakeLists.txt", "cmake", "core", "developer", "effect", "include"}) {
-            std::filesystem::copy(project / part, folder_.path / part, std::filesystem::copy_options::recursive);
-        }
-        const std::string path = folder_.path.string();
-        const std::string command = "cmake -G Ninja -DNACRE_DEVELOPER=ON -DNACRE_BUILD_APP=OFF -DNACRE_BUILD_TESTS=OFF "
-                                    "-S '" +
-                                    path + "' -B '" + path + "/build' > '" + path + "/log'";
-        if (std::system(command.c_str()) != 0) {
-            throw std::runtime_error("failed: " + command);
-        }
-        setenv("NACRE_SHADER_BUILD", (path + "/build").c_str(), 1);
-        developer::compileShaders();
-    }
-    ~ProjectCopy() { unsetenv("NACRE_SHADER_BUILD"); }
-    ProjectCopy(const ProjectCopy&) = delete;
-
-    /// Puts `after` in the place of `before`, which is there once.
-    void change(const std::string& file, const std::string& before, const std::string& after) const {
-        std::stringstream text;
-        text << std::ifstream(folder_.path / file).rdbuf();
-        std::string changed = text.str();
-        const std::size_t place = changed.find(before);
-        if (place == std::string::npos || changed.find(before, place + 1) != std::string::npos) {
-            throw std::runtime_error(file + " does not have once: " + before);
-        }
-        std::ofstream(folder_.path / file) << changed.replace(place, before.size(), after);
-    }
-
-private:
-    TemporaryFolder folder_;
-};
-
 TEST_F(GpuTest, ReloadsShadersAndKeepsThePipelinesWhereOneIsBroken) {
-    const ProjectCopy project;
+    const ProjectCopy project({"cmake", "core", "developer", "effect", "include"}, "-DNACRE_BUILD_APP=OFF");
     const std::string file = "effect/separable/scatter_separable.comp";
     const std::string line = "return light / max(weight, vec3(1e-20));";
     const ScatterInput input = ScatterInput::plane(32, 32, Projection::perspective(32, 32, 40), 100);
