@@ -1,5 +1,5 @@
 // What is tuned in the Gaussian bank. Included by GLSL and C++ (inside a namespace). The figures are mean dB over the
-// twelve cases of tests/support/scatter_scenes, two seeds, unless said otherwise; docs/scatter.md has the table.
+// twelve cases of tests/support/scatter_scenes, two seeds, unless said otherwise.
 
 // Pyramid levels; level l has texels 2^l px wide.
 const int bankLevels = 6;

@@ -24,8 +24,7 @@ inline constexpr double defaultKernelShare = 0.99;
 /// Taps are as dense as the cube root of the line-spread, (Σ_c L_c²)^⅙, which makes the mean square distance between
 /// light and the tap that carries it least (Panter and Dite 1951, "Quantization distortion in pulse-count modulation");
 /// each stands at its cell's centre of mass. Light beyond `radius` goes to the outermost taps, so the weights sum to 1
-/// without renormalising. Over skin, marble and Burley at 2 to 5 px/mm, hard shadows: 39.2, 40.4, 40.1 dB with 11, 17,
-/// 25 taps, where the rest is what no separable kernel can do (quadratic spacing: 38.9, 40.3, 40.5 dB).
+/// without renormalising. Errors: docs/performance.md.
 ///
 /// tapCount: [3 … 255] odd. radius: [> 0] mm; 0 takes the profile's defaultKernelShare radius.
 /// Throws std::invalid_argument naming the argument and its value.
@@ -33,7 +32,7 @@ Kernel lineSpreadKernel(const Profile& profile, int tapCount, double radius = 0)
 
 /// The thesis's kernel (chapter 4.3, appendix A): 2·radius + 1 taps with weights from a slice R(x, 0) of the layers,
 /// times the tap's width, divided by their sum. It under-weights the tails (a slice is no line-spread) and is here
-/// because the thesis's figures are made with it; lineSpreadKernel costs the same and is 10 to 16 dB closer.
+/// because the thesis's figures are made with it; lineSpreadKernel costs the same and is closer.
 /// Offsets are spaced quadratically over ±extent as in Jimenez's construction. A layer that is a point
 /// mass (SumOfGaussiansProfile) stays at the centre.
 ///

@@ -342,7 +342,7 @@ typedef struct NacreTransmitInfo {
     uint32_t lightCount;
     const NacreLight* lights;
     uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] images; quickest with one,
-                                       in whose layers all lights have their map (docs/scatter.md) */
+                                       in whose layers all lights have their map */
     const NacreImage* shadowMaps; /**< 2D array views of linear depth; extent: the map, from the view's first texel */
     float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
