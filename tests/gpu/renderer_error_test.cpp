@@ -16,17 +16,21 @@ scene::Scene plane() {
     return scene;
 }
 
-/// Rendering throws RendererError, whose sentence has every one of `words` in it.
-void expectRefused(const scene::Scene& scene, const renderer::RenderSettings& settings,
-                   const std::vector<std::string>& words) {
+/// `act` throws RendererError, whose sentence has every one of `words` in it.
+void expectRefused(const std::function<void()>& act, const std::vector<std::string>& words) {
     try {
-        render(scene, settings);
+        act();
         FAIL() << "nothing was refused";
     } catch (const renderer::RendererError& error) {
         for (const std::string& word : words) {
             EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << word << " in: " << error.what();
         }
     }
+}
+
+void expectRefused(const scene::Scene& scene, const renderer::RenderSettings& settings,
+                   const std::vector<std::string>& words) {
+    expectRefused([&] { render(scene, settings); }, words);
 }
 
 TEST_F(Errors, SizesBeyondReason) {
@@ -53,6 +57,13 @@ TEST_F(Errors, MemoryIsGivenBackAfterARefusal) {
     scene.lights.assign(300, point({0, 0, 1}));
     expectRefused(scene, settings, {"memory", "shadow maps", "MiB"});
     EXPECT_NO_THROW(render(plane(), plainSettings()));
+}
+
+TEST_F(Errors, ShadersThatArePartOfTheProgramAreNotReloaded) {
+    const scene::Scene scene = plane();
+    renderer::Offscreen renderer = render(scene, plainSettings());
+    expectRefused([&] { renderer.reloadShaders(); }, {"shaders are part of this program", "preset developer"});
+    EXPECT_NO_THROW(renderer.render(scene.cameras[0]));
 }
 
 TEST_F(Errors, TechniquesTooLargeForTheDeviceKeepNoOtherFromThePicture) {
