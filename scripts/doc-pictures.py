@@ -124,7 +124,7 @@ def write_frame(folder, images):
     write_png(folder + "/frame-picture.png", encode(halved(images["picture"])))
 
 
-def rough_blocks(depths, materials):
+def stepped_blocks(depths, materials):
     """Which blocks of 2x2 px hold a step to another surface, as pass A decides it."""
     width, height = REGIONS_SIZE
     pixel = 2 * math.tan(0.5 * FIELD_OF_VIEW) / height
@@ -137,7 +137,7 @@ def rough_blocks(depths, materials):
 
     along = [[distance(x - 1, y - 1) for x in range(width + 2)] for y in range(height + 2)]
 
-    def is_rough(bx, by):
+    def is_stepped(bx, by):
         x, y = 2 * bx + 1, 2 * by + 1
         lines = [[along[y + i][x + k] for k in (-1, 0, 1, 2)] for i in (0, 1)]
         lines += [[along[y + k][x + i] for k in (-1, 0, 1, 2)] for i in (0, 1)]
@@ -155,14 +155,14 @@ def rough_blocks(depths, materials):
         is_two = max(present) - min(present) > SEPARATION * 2 * size
         return is_two or (longest > limit and not goes_on)
 
-    return [[is_rough(bx, by) for bx in range(width // 2)] for by in range(height // 2)]
+    return [[is_stepped(bx, by) for bx in range(width // 2)] for by in range(height // 2)]
 
 
 def write_regions(path, images):
     """A part of the gallery with its smooth regions in blue, edge regions in orange."""
     width, height = REGIONS_SIZE
     materials, background = images["material"], images["picture"]
-    rough = rough_blocks(images["depth"], materials)
+    stepped = stepped_blocks(images["depth"], materials)
     columns, rows = math.ceil(width / 32) * 2, math.ceil(height / 16) * 2
 
     def is_empty(px, py):  # of a part: no pixel of its tile of 16x16 has a material
@@ -170,7 +170,7 @@ def write_regions(path, images):
         return not any(materials[y][x] for y in range(top, min(top + 16, height)) for x in range(px * 16, min(px * 16 + 16, width)))
 
     def has_step(px, py):
-        return any(rough[y][x] for y in range(max(4 * py - 1, 0), min(4 * py + 5, height // 2))
+        return any(stepped[y][x] for y in range(max(4 * py - 1, 0), min(4 * py + 5, height // 2))
                    for x in range(max(8 * px - 1, 0), min(8 * px + 9, width // 2)))
 
     kinds = {}
