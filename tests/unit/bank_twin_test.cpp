@@ -12,13 +12,20 @@
 namespace nacre::tests {
 namespace {
 
-// Kinds of scene × footprints of 4, 20 and 60 px.
+#ifdef __SANITIZE_ADDRESS__
+// The sanitizers, which take four times as long, look at memory: one footprint shows them what three do.
+constexpr std::array footprints{20.0};
+#else
+constexpr std::array footprints{4.0, 20.0, 60.0};
+#endif
+
+// Kinds of scene × footprints [px].
 void expectCloseness(std::span<const SceneKind> kinds, std::uint32_t seed, const TwinSettings& settings, double least,
                      double leastMean) {
     double sum = 0;
     int cases = 0;
     for (const SceneKind kind : kinds) {
-        for (const double footprint : {4.0, 20.0, 60.0}) {
+        for (const double footprint : footprints) {
             const ScatterScene scene = makeScatterScene({.kind = kind, .footprint = footprint, .seed = seed});
             const std::vector<ReferencePixel> reference = scatterReference(scene, 7);
             const BankTwin twin(scene, settings);
@@ -32,7 +39,9 @@ void expectCloseness(std::span<const SceneKind> kinds, std::uint32_t seed, const
         }
     }
     std::printf("seed %u mean %.2f dB\n", seed, sum / cases);
-    EXPECT_GE(sum / cases, leastMean) << "seed " << seed;
+    if (footprints.size() > 1) {
+        EXPECT_GE(sum / cases, leastMean) << "seed " << seed;
+    }
 }
 
 // Two seeds; the constants were chosen on the first alone.
