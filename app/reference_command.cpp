@@ -43,7 +43,7 @@ const char* stoppedBy(Stopped stopped) {
 }
 
 void refuseToLoseCheckpoint(const ReferenceOptions& options) {
-    const std::filesystem::path file = reference::checkpointOf(options.output);
+    const std::filesystem::path file = trace::checkpointOf(options.output);
     if (!options.resume && !options.restart && std::filesystem::exists(file)) {
         throw std::runtime_error(file.string() +
                                  ": is there from an earlier run; --resume goes on from it, --restart replaces it");
@@ -52,7 +52,7 @@ void refuseToLoseCheckpoint(const ReferenceOptions& options) {
 
 void checkReferenceOutputs(const ReferenceOptions& options) {
     checkWritable(options.output);
-    checkWritable(reference::checkpointOf(options.output));
+    checkWritable(trace::checkpointOf(options.output));
     if (!options.json.empty()) {
         checkWritable(options.json);
     }
@@ -73,12 +73,12 @@ void readDirectLight(ReferenceOptions& options) {
 }
 
 void resumeFrom(const ReferenceOptions& options, reference::Reference& reference) {
-    const std::filesystem::path file = reference::checkpointOf(options.output);
+    const std::filesystem::path file = trace::checkpointOf(options.output);
     if (!options.resume || !std::filesystem::exists(file)) {
         return;
     }
     Checkpoint checkpoint = reference::loadCheckpoint(file);
-    reference::requireSameIdentity(file, checkpoint, reference.identity());
+    trace::requireSameIdentity(file, checkpoint.identity, reference.identity());
     if (checkpoint.part != options.settings.part) {
         throw std::runtime_error(file.string() + ": is part " + std::to_string(checkpoint.part.index) + "/" +
                                  std::to_string(checkpoint.part.count) + ", not the --part asked for");
@@ -88,7 +88,7 @@ void resumeFrom(const ReferenceOptions& options, reference::Reference& reference
 
 /// Picture and checkpoint as they are now.
 void save(const ReferenceOptions& options, const reference::Reference& reference) {
-    reference::saveCheckpoint(reference::checkpointOf(options.output),
+    reference::saveCheckpoint(trace::checkpointOf(options.output),
                               {reference.identity(), options.settings.part, reference.film()});
     writeFilm(options.output, reference.film());
 }
@@ -141,6 +141,7 @@ void compute(ReferenceOptions options) {
         const Progress progress("loading " + sceneName(options));
         return makeScene(options);
     }();
+    requireInputsKept(options, scene, {options.output, options.json});
     const scene::Camera camera = makeCamera(options, scene);
     runInterruptibly([&] {
         reference::Reference reference(scene, camera, options.settings);
@@ -162,7 +163,7 @@ void compute(ReferenceOptions options) {
         if (stopped == Stopped::Interrupted) {
             std::cout.flush();
             std::cerr << "nacre: interrupted; the same command with --resume goes on from "
-                      << reference::checkpointOf(options.output).string() << '\n';
+                      << trace::checkpointOf(options.output).string() << '\n';
             throwIfInterrupted();
         }
     });
@@ -170,7 +171,7 @@ void compute(ReferenceOptions options) {
 
 /// The checkpoint of a part that is named by its picture or by the checkpoint itself.
 std::filesystem::path partCheckpoint(const std::filesystem::path& part) {
-    return part.extension() == ".exr" ? reference::checkpointOf(part) : part;
+    return part.extension() == ".exr" ? trace::checkpointOf(part) : part;
 }
 
 struct MergeOptions {
@@ -191,7 +192,7 @@ void mergeParts(const MergeOptions& options) {
     }
     requireDistinctFiles(files);
     checkWritable(options.output);
-    checkWritable(reference::checkpointOf(options.output));
+    checkWritable(trace::checkpointOf(options.output));
     if (!options.json.empty()) {
         checkWritable(options.json);
     }
@@ -200,7 +201,7 @@ void mergeParts(const MergeOptions& options) {
     result.file = options.output;
     result.scene = std::to_string(options.parts.size()) + " parts";
     result.stoppedBy = "merge";
-    reference::saveCheckpoint(reference::checkpointOf(options.output), result.checkpoint);
+    reference::saveCheckpoint(trace::checkpointOf(options.output), result.checkpoint);
     writeFilm(options.output, result.checkpoint.film);
     finish(result, options.json);
 }

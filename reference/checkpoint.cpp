@@ -1,69 +1,12 @@
 #include "reference/checkpoint.hpp"
 
-#include "nacre/files.hpp"
-#include "reference/fingerprint.hpp"
-
-#include <cstring>
-
 namespace nacre::reference {
 namespace {
 
 constexpr std::string_view checkpointMagic = "nacre reference checkpoint 1\n";
-constexpr std::uint64_t maxCheckpointBytes = std::uint64_t{32} << 30;
 constexpr std::uint32_t maxFilmSide = 16384;
-constexpr std::uint32_t maxTexts = 64;
-constexpr std::uint32_t maxTextLength = 4096;
 
-class Writer {
-public:
-    template <typename Value> void put(const Value& value) {
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
-        bytes_.insert(bytes_.end(), bytes, bytes + sizeof(Value));
-    }
-    void putText(std::string_view text) {
-        put(static_cast<std::uint32_t>(text.size()));
-        putBytes(text);
-    }
-    void putBytes(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
-    const std::vector<std::uint8_t>& bytes() const { return bytes_; }
-
-private:
-    std::vector<std::uint8_t> bytes_;
-};
-
-class Reader {
-public:
-    Reader(std::span<const std::uint8_t> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
-    template <typename Value> Value get() {
-        Value value;
-        std::memcpy(&value, take(sizeof(Value)).data(), sizeof(Value));
-        return value;
-    }
-    std::string getText() {
-        const auto length = get<std::uint32_t>();
-        require(length <= maxTextLength);
-        const std::span<const std::uint8_t> text = take(length);
-        return {text.begin(), text.end()};
-    }
-    std::span<const std::uint8_t> take(std::size_t count) {
-        require(count <= bytes_.size());
-        const std::span<const std::uint8_t> result = bytes_.first(count);
-        bytes_ = bytes_.subspan(count);
-        return result;
-    }
-    void require(bool condition) const {
-        if (!condition) {
-            throw FileError(name_ + ": is damaged or cut off");
-        }
-    }
-    std::size_t left() const { return bytes_.size(); }
-
-private:
-    std::span<const std::uint8_t> bytes_;
-    std::string name_;
-};
-
-void putFilm(Writer& writer, const Film& film) {
+void putFilm(trace::WorkWriter& writer, const Film& film) {
     writer.put(film.width);
     writer.put(film.height);
     writer.put(film.seconds);
@@ -80,7 +23,7 @@ void putFilm(Writer& writer, const Film& film) {
     }
 }
 
-Film getFilm(Reader& reader) {
+Film getFilm(trace::WorkReader& reader) {
     const auto width = reader.get<std::uint32_t>();
     const auto height = reader.get<std::uint32_t>();
     reader.require(width > 0 && height > 0 && width <= maxFilmSide && height <= maxFilmSide);
@@ -108,67 +51,24 @@ std::string partText(const Part& part) {
 
 } // namespace
 
-std::filesystem::path checkpointOf(const std::filesystem::path& picture) {
-    return picture.string() + ".checkpoint";
-}
-
 void saveCheckpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-    Writer writer;
-    writer.putBytes(checkpointMagic);
-    writer.put(static_cast<std::uint32_t>(checkpoint.identity.size()));
-    for (const auto& [name, value] : checkpoint.identity) {
-        writer.putText(name);
-        writer.putText(value);
-    }
+    trace::WorkWriter writer(checkpointMagic, checkpoint.identity);
     writer.put(checkpoint.part.index);
     writer.put(checkpoint.part.count);
     putFilm(writer, checkpoint.film);
-    Fingerprint print;
-    print.add(std::as_bytes(std::span(writer.bytes())));
-    writer.put(print.value());
-    writeFileAtomically(file, writer.bytes());
+    writer.save(file);
 }
 
 Checkpoint loadCheckpoint(const std::filesystem::path& file) {
-    const std::vector<std::uint8_t> bytes = readFile(file, maxCheckpointBytes);
-    if (bytes.size() < checkpointMagic.size() + sizeof(std::uint64_t) ||
-        std::memcmp(bytes.data(), checkpointMagic.data(), checkpointMagic.size()) != 0) {
-        throw FileError(file.string() + ": is not a checkpoint of `nacre reference`");
-    }
-    const std::span<const std::uint8_t> content = std::span(bytes).first(bytes.size() - sizeof(std::uint64_t));
-    Fingerprint print;
-    print.add(std::as_bytes(content));
-    Reader reader(bytes, file.string());
-    reader.take(checkpointMagic.size());
-    Reader tail{std::span(bytes).last(sizeof(std::uint64_t)), file.string()};
-    reader.require(tail.get<std::uint64_t>() == print.value());
+    trace::WorkReader reader(file, checkpointMagic, "a checkpoint of `nacre reference`");
     Checkpoint checkpoint;
-    const auto texts = reader.get<std::uint32_t>();
-    reader.require(texts <= maxTexts);
-    for (std::uint32_t i = 0; i < texts; ++i) {
-        const std::string name = reader.getText();
-        checkpoint.identity.emplace_back(name, reader.getText());
-    }
+    checkpoint.identity = reader.identity();
     checkpoint.part.index = reader.get<std::uint32_t>();
     checkpoint.part.count = reader.get<std::uint32_t>();
     reader.require(checkpoint.part.index >= 1 && checkpoint.part.index <= checkpoint.part.count);
     checkpoint.film = getFilm(reader);
-    reader.require(reader.left() == sizeof(std::uint64_t));
+    reader.require(reader.left() == 0);
     return checkpoint;
-}
-
-void requireSameIdentity(const std::filesystem::path& file, const Checkpoint& checkpoint,
-                         const std::vector<std::pair<std::string, std::string>>& identity) {
-    for (std::size_t i = 0; i < identity.size(); ++i) {
-        const auto& [name, value] = identity[i];
-        if (i >= checkpoint.identity.size() || checkpoint.identity[i].first != name) {
-            throw FileError(file.string() + ": says nothing of " + name);
-        }
-        if (checkpoint.identity[i].second != value) {
-            throw FileError(file.string() + ": is of another " + name + ", '" + checkpoint.identity[i].second +
-                            "' in place of '" + value + "'");
-        }
-    }
 }
 
 Checkpoint merge(const std::vector<std::filesystem::path>& files) {
@@ -181,7 +81,7 @@ Checkpoint merge(const std::vector<std::filesystem::path>& files) {
             whole.film = Film(one.film.width, one.film.height);
             present.resize(one.part.count);
         }
-        requireSameIdentity(file, one, whole.identity);
+        trace::requireSameIdentity(file, one.identity, whole.identity);
         if (one.part.count != present.size() || one.film.width != whole.film.width ||
             one.film.height != whole.film.height) {
             throw FileError(file.string() + ": is part " + partText(one.part) + ", the first file one of " +

@@ -3,32 +3,21 @@
 #pragma once
 
 #include "reference/film.hpp"
-
-#include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
+#include "trace/work_file.hpp"
 
 namespace nacre::reference {
 
 struct Checkpoint {
-    std::vector<std::pair<std::string, std::string>> identity; ///< Reference::identity
+    trace::Identity identity; ///< Reference::identity
     Part part;
     Film film;
 };
-
-/// "<picture>.checkpoint".
-std::filesystem::path checkpointOf(const std::filesystem::path& picture);
 
 /// Writes it whole or not at all. Throws FileError.
 void saveCheckpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// Throws FileError naming the file and what is wrong with it.
 Checkpoint loadCheckpoint(const std::filesystem::path& file);
-
-/// Throws FileError, naming the file and the first value that differs, unless both identities are the same.
-void requireSameIdentity(const std::filesystem::path& file, const Checkpoint& checkpoint,
-                         const std::vector<std::pair<std::string, std::string>>& identity);
 
 /// One film of all parts. Throws FileError unless they are the parts 1 to N of one reference, each once.
 Checkpoint merge(const std::vector<std::filesystem::path>& files);

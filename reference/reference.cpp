@@ -1,8 +1,8 @@
 #include "reference/reference.hpp"
 
-#include "reference/fingerprint.hpp"
 #include "reference/random_walk.hpp"
 #include "reference/surface_integral.hpp"
+#include "trace/fingerprint.hpp"
 #include "trace/view.hpp"
 
 #include <tbb/blocked_range.h>
@@ -57,7 +57,7 @@ struct Reference::Implementation {
     Implementation(const scene::Scene& referenceScene, const scene::Camera& camera, const Settings& referenceSettings)
         : scene(referenceScene),
           settings(referenceSettings),
-          cameraPrint(fingerprintOf(camera)),
+          cameraPrint(trace::fingerprintOf(camera)),
           geometry(scene),
           view(camera, settings.width, settings.height),
           light(geometry),
@@ -236,21 +236,20 @@ Stopped Reference::run(const Stop& stop, const std::function<bool(const Progress
     }
 }
 
-std::vector<std::pair<std::string, std::string>> Reference::identity() const {
+trace::Identity Reference::identity() const {
     const Settings& settings = implementation_->settings;
-    std::vector<std::pair<std::string, std::string>> result{
-        {"method", methodName(settings.method)},
-        {"size", std::to_string(settings.width) + "x" + std::to_string(settings.height)},
-        {"samples", std::to_string(settings.samples)},
-        {"seed", std::to_string(settings.seed)}};
+    trace::Identity result{{"method", methodName(settings.method)},
+                           {"size", std::to_string(settings.width) + "x" + std::to_string(settings.height)},
+                           {"samples", std::to_string(settings.samples)},
+                           {"seed", std::to_string(settings.seed)}};
     if (settings.method == Method::Walk) {
         result.emplace_back("boundary", boundaryName(settings.boundary));
         result.emplace_back("anisotropy", std::to_string(settings.anisotropy));
     } else {
         result.emplace_back("exchange", settings.exchange ? "yes" : "no");
     }
-    result.emplace_back("direct", settings.direct ? fingerprintOf(*settings.direct) : "traced");
-    result.emplace_back("scene", fingerprintOf(implementation_->scene));
+    result.emplace_back("direct", settings.direct ? trace::fingerprintOf(*settings.direct) : "traced");
+    result.emplace_back("scene", trace::fingerprintOf(implementation_->scene));
     result.emplace_back("camera", implementation_->cameraPrint);
     return result;
 }

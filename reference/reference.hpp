@@ -8,12 +8,12 @@
 #include "reference/film.hpp"
 #include "reference/medium.hpp"
 #include "scene/scene.hpp"
+#include "trace/work_file.hpp"
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 namespace nacre::reference {
 
@@ -72,8 +72,8 @@ public:
     /// Adds samples until one of the conditions in `stop` holds or `proceed` says false.
     Stopped run(const Stop& stop, const std::function<bool(const Progress&)>& proceed);
 
-    /// Names and values that two runs must share so that one can go on where the other stopped.
-    std::vector<std::pair<std::string, std::string>> identity() const;
+    /// What this run shares with those that it can go on from.
+    trace::Identity identity() const;
     /// What the user should know about the scene, and about what went wrong on the way; a sentence each.
     std::vector<std::string> warnings() const;
 

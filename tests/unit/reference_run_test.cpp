@@ -110,7 +110,7 @@ TEST_P(ReferenceRunTest, ResumedIsUninterrupted) {
     reference::saveCheckpoint(file, {first.identity(), settings.part, first.film()});
     Reference second(scene_, camera_, settings);
     Checkpoint checkpoint = reference::loadCheckpoint(file);
-    reference::requireSameIdentity(file, checkpoint, second.identity());
+    trace::requireSameIdentity(file, checkpoint.identity, second.identity());
     second.resume(std::move(checkpoint.film));
     EXPECT_EQ(second.run(stopAt(21), [](const reference::Progress&) { return true; }), Stopped::Spp);
     expectSame(second.film(), whole);
@@ -155,8 +155,8 @@ TEST(CheckpointTest, DamageAndStrangersAreRefused) {
     reference::saveCheckpoint(file, {{{"seed", "1"}}, {}, film});
     const Checkpoint whole = reference::loadCheckpoint(file);
     EXPECT_TRUE(whole.film.pixels == film.pixels);
-    EXPECT_THROW(reference::requireSameIdentity(file, whole, {{"seed", "2"}}), FileError);
-    EXPECT_THROW(reference::requireSameIdentity(file, whole, {{"size", "3x2"}}), FileError);
+    EXPECT_THROW(trace::requireSameIdentity(file, whole.identity, {{"seed", "2"}}), FileError);
+    EXPECT_THROW(trace::requireSameIdentity(file, whole.identity, {{"size", "3x2"}}), FileError);
     std::vector<std::uint8_t> bytes = readFile(file);
     for (const std::size_t size : {std::size_t{0}, std::size_t{20}, bytes.size() / 2, bytes.size() - 1}) {
         writeFileAtomically(file, std::span(bytes).first(size));

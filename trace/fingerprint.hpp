@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace nacre::reference {
+namespace nacre::trace {
 
 /// FNV-1a over bytes (Fowler, Noll and Vo), 64 bits.
 class Fingerprint {
@@ -25,9 +25,10 @@ private:
     std::uint64_t value_ = 0xCBF29CE484222325ULL;
 };
 
-/// Of everything in the scene that a reference depends on: geometry, surfaces, materials, lights and surroundings.
+/// Of everything in the scene that light under its surfaces depends on: geometry, surfaces, materials, lights and
+/// surroundings.
 std::string fingerprintOf(const scene::Scene& scene);
 std::string fingerprintOf(const scene::Camera& camera);
 std::string fingerprintOf(const nacre::Image& image);
 
-} // namespace nacre::reference
+} // namespace nacre::trace

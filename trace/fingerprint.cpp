@@ -1,9 +1,9 @@
-#include "reference/fingerprint.hpp"
+#include "trace/fingerprint.hpp"
 
 #include <array>
 #include <cstdio>
 
-namespace nacre::reference {
+namespace nacre::trace {
 namespace {
 
 void addSurface(Fingerprint& print, const scene::Surface& surface) {
@@ -131,4 +131,4 @@ std::string fingerprintOf(const nacre::Image& image) {
     return print.text();
 }
 
-} // namespace nacre::reference
+} // namespace nacre::trace
