@@ -34,19 +34,10 @@ void checkOutputs(const RenderOptions& options) {
     }
 }
 
-/// No output may replace what the scene is made of, however deep a file is named.
-void requireInputsKept(const RenderOptions& options, const scene::Scene& scene) {
+std::vector<std::filesystem::path> outputsOf(const RenderOptions& options) {
     std::vector<std::filesystem::path> outputs{options.output, options.json};
     std::ranges::transform(options.aovs, std::back_inserter(outputs), &AovOutput::file);
-    std::erase_if(outputs, [](const auto& file) { return file.empty() || file == "-"; });
-    for (const std::string& input : scene.inputs) {
-        for (const std::filesystem::path& output : outputs) {
-            if (isSameFile(input, output)) {
-                throw std::runtime_error(output.string() + ": cannot be written: " + sceneName(options) +
-                                         " is made of this file");
-            }
-        }
-    }
+    return outputs;
 }
 
 void summarise(const RenderOptions& options, const renderer::DeviceDescription& device,
@@ -74,7 +65,7 @@ void render(const RenderOptions& options) {
         loaded.exposure *= std::exp2(options.exposure);
         return loaded;
     }();
-    requireInputsKept(options, scene);
+    requireInputsKept(options, scene, outputsOf(options));
     const scene::Camera camera = makeCamera(options, scene);
     renderer::FrameReport frame;
     {

@@ -154,6 +154,18 @@ Scene makeScene(const SceneOptions& options) {
     return scene;
 }
 
+void requireInputsKept(const SceneOptions& options, const Scene& scene, std::vector<std::filesystem::path> outputs) {
+    std::erase_if(outputs, [](const auto& file) { return file.empty() || file == "-"; });
+    for (const std::string& input : scene.inputs) {
+        for (const std::filesystem::path& output : outputs) {
+            if (isSameFile(input, output)) {
+                throw std::runtime_error(output.string() + ": cannot be written: " + sceneName(options) +
+                                         " is made of this file");
+            }
+        }
+    }
+}
+
 Camera makeCamera(const SceneOptions& options, const Scene& scene) {
     Camera camera = findCamera(options, scene);
     camera.position = options.cameraPosition.value_or(camera.position);

@@ -14,6 +14,11 @@ std::string sceneName(const SceneOptions& options);
 /// Throws UsageError, scene::SceneError or std::runtime_error with one sentence.
 scene::Scene makeScene(const SceneOptions& options);
 
+/// Throws std::runtime_error where an output would replace a file that the scene is made of, however deep that is
+/// named. Empty names and "-" are not looked at.
+void requireInputsKept(const SceneOptions& options, const scene::Scene& scene,
+                       std::vector<std::filesystem::path> outputs);
+
 /// Leaves the scene the lights that --light asks for, and puts in what it lacks on a side. Throws std::runtime_error
 /// naming a light that the scene does not have.
 void chooseLights(const SceneOptions& options, scene::Scene& scene);
