@@ -23,6 +23,7 @@ struct UsageError : std::runtime_error {
 /// Each adds one subcommand, with its options and what it runs.
 void addRender(CLI::App& app);
 void addReference(CLI::App& app);
+void addBake(CLI::App& app);
 void addCompare(CLI::App& app);
 void addMaterial(CLI::App& app);
 void addDevices(CLI::App& app);

@@ -20,6 +20,7 @@ constexpr const char* examples = R"(Examples:
   nacre render model.glb --material skin --back         any model, lit from behind
   nacre render scene.json -o frame.exr --json frame.json
   nacre reference model.glb -o truth.exr                what the picture should be
+  nacre bake thickness model.glb -o T.png               how thick it is, as a texture
   nacre compare frame.exr reference.exr                 how far a picture is from another
   nacre material list                                   what there is to render with
   nacre devices                                         what there is to render on
@@ -86,6 +87,7 @@ int main(int argumentCount, char** arguments) {
         app.footer(examples);
         nacre::app::addRender(app);
         nacre::app::addReference(app);
+        nacre::app::addBake(app);
         nacre::app::addCompare(app);
         nacre::app::addMaterial(app);
         nacre::app::addDevices(app);

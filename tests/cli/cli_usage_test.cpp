@@ -80,6 +80,15 @@ const std::vector<WrongUsage> wrongUsages{
     {"CameraPositionLong", {"render", "--camera-position", "1,2,3,4"}, {"--camera-position", "'1,2,3,4'"}},
     {"CameraPositionInfinite", {"render", "--camera-position", "1,inf,0"}, {"--camera-position", "1,inf,0"}},
     {"FieldOfView", {"render", "--fov", "180"}, {"--fov 180"}},
+    {"BakeAlone", {"bake"}, {"subcommand"}},
+    {"BakeKind", {"bake", "thickness", "-o", "t.jpg"}, {"--output", "'t.jpg'", ".exr", ".png", ".ply"}},
+    {"BakeSize", {"bake", "thickness", "--size", "64"}, {"--size", "'64'"}},
+    {"BakeRaysZero", {"bake", "thickness", "--rays", "0"}, {"--rays 0", "1 to 65536"}},
+    {"BakeWhite", {"bake", "thickness", "-o", "t.png", "--white", "0"}, {"--white 0"}},
+    {"BakeWhiteOfAnExr", {"bake", "thickness", "-o", "t.exr", "--white", "9"}, {"--white", "'t.exr'"}},
+    {"BakeNeutralSkin", {"bake", "thickness", "--neutral", "--material", "skin"}, {"--neutral", "--material"}},
+    {"BakeResumeRestart", {"bake", "thickness", "--resume", "--restart"}, {"--resume", "--restart"}},
+    {"BakeOverItsInput", {"bake", "thickness", "a.ply", "-o", "./a.ply"}, {"same file", "a.ply"}},
 };
 
 class WrongUsageTest : public CommandTest, public testing::WithParamInterface<WrongUsage> {};
@@ -138,6 +147,9 @@ TEST_F(UsageTest, HelpOfRenderHasEveryOptionAndExamples) {
 
 TEST_F(UsageTest, HelpOfTheOtherCommands) {
     expectText({"devices", "--help"}, {"--json"});
+    expectText({"bake", "thickness", "--help"},
+               {"--output", "--size", "--white", "--surface", "--material", "--neutral", "--rays", "--seed",
+                "--threads", "--resume", "--restart", "--json", "KHR_materials_volume", "Examples"});
     expectText({"material", "--help"}, {"list", "show", "check", "fit"});
     expectText({"material", "show", "--help"}, {"MATERIAL", "--json", "--plot", ".svg"});
     expectText({"material", "fit", "--help"}, {"MATERIAL", "--slabs", "--layers", "--json", "skin"});
