@@ -3,6 +3,7 @@
 #include "nacre/files.hpp"
 #include "nacre/presets.hpp"
 #include "scene/surface_material.hpp"
+#include "scene/texture.hpp"
 
 #include <algorithm>
 #include <map>
@@ -50,6 +51,21 @@ void assignByName(SceneFileObject& object, const nlohmann::json& byName, Scene& 
     }
 }
 
+/// The baked thickness of all surfaces, which `thickness` is the white of.
+void readThicknessTexture(SceneFileObject& look, Scene& model) {
+    const std::string texture = look.text("thicknessTexture");
+    if (!look.has("thicknessTexture")) {
+        return;
+    }
+    look.require("thickness");
+    const std::filesystem::path target = look.namedFile("thicknessTexture", texture, "an existing picture of 8 bits");
+    model.inputs.push_back(target.string());
+    for (Surface& surface : model.surfaces) {
+        surface.thicknessTexture = static_cast<std::uint32_t>(model.textures.size());
+    }
+    model.textures.push_back(readTexture(target, false));
+}
+
 void readLook(SceneFileObject look, Scene& model) {
     const bool colored = look.has("baseColor");
     const glm::vec3 baseColor = look.triple("baseColor", glm::vec3(1), unitInterval);
@@ -68,6 +84,7 @@ void readLook(SceneFileObject look, Scene& model) {
         surface.thickness = thickness >= 0 ? thickness : surface.thickness;
         surface.doubleSided = look.has("doubleSided") ? doubleSided : surface.doubleSided;
     }
+    readThicknessTexture(look, model);
     look.finish();
 }
 

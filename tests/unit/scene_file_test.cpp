@@ -1,6 +1,7 @@
 // Scene files: what they place, what they refuse, and that the schema says the same as the reader.
 #include "scene/files/scene_file.hpp"
 
+#include "image/image_file.hpp"
 #include "scene/import.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -29,6 +30,7 @@ protected:
         std::ofstream sky(folder / "sky.hdr", std::ios::binary);
         sky << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
         sky.write("\x80\x80\x80\x81\x80\x80\x80\x82", 8);
+        writePng(folder / "thick.png", {2, 1, {"Y"}, {0.2f, 1}, Encoding::Srgb});
     }
 
     Scene read(const std::string& text) const {
@@ -66,7 +68,7 @@ Json everything() {
                     "translate": [1, 2, 3], "rotate": [0, 0, 90], "scale": 2, "material": "skin",
                     "materials": {"red": "soap.json"},
                     "surface": {"baseColor": [0.1, 0.2, 0.3], "metallic": 0.4, "roughness": 0.6, "specular": 0.7,
-                                "thickness": 5, "doubleSided": true}}],
+                                "thickness": 5, "thicknessTexture": "thick.png", "doubleSided": true}}],
         "lights": [{"name": "l", "type": "spot", "color": [1, 2, 3], "intensity": 4, "position": [1, 2, 3],
                     "direction": [0, 0, -2], "range": 5, "innerConeAngle": 10, "outerConeAngle": 60,
                     "castsShadow": false}],
@@ -95,6 +97,9 @@ TEST_F(SceneFile, SetsEveryMember) {
     EXPECT_FLOAT_EQ(surface.roughness, 0.6f);
     EXPECT_FLOAT_EQ(surface.specular, 0.7f);
     EXPECT_FLOAT_EQ(surface.thickness, 5);
+    const Texture& thickness = scene.textures.at(surface.thicknessTexture);
+    EXPECT_FALSE(thickness.srgb);
+    EXPECT_EQ(thickness.pixels[1], 51); // green of the first texel, 0.2
     EXPECT_TRUE(surface.doubleSided);
     ASSERT_EQ(scene.lights.size(), 1u);
     const Light& light = scene.lights[0];
@@ -113,6 +118,16 @@ TEST_F(SceneFile, SetsEveryMember) {
     EXPECT_EQ(scene.environment.image->width, 2u);
     EXPECT_FLOAT_EQ(scene.environment.rotation, std::numbers::pi_v<float>);
     EXPECT_EQ(scene.environment.ground, glm::vec3(3));
+}
+
+TEST_F(SceneFile, AThicknessTextureNeedsAThickness) {
+    Json json = minimal();
+    json["models"][0]["surface"] = {{"thicknessTexture", "thick.png"}};
+    EXPECT_EQ(error(json), "scene.json: models[0].surface.thickness is missing");
+    json["models"][0]["surface"]["thickness"] = 3;
+    EXPECT_EQ(error(json), "");
+    json["models"][0]["surface"]["thicknessTexture"] = "thin.png";
+    EXPECT_NE(error(json).find("models[0].surface.thicknessTexture is \"thin.png\""), std::string::npos);
 }
 
 TEST_F(SceneFile, FillsInWhatIsMissing) {
