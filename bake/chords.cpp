@@ -10,6 +10,9 @@ namespace nacre::bake {
 namespace {
 
 constexpr double millimetresPerMetre = 1000;
+/// Of the bodies' diagonal: what is met before is the surface itself, or a second one in its place. About 16 steps of a
+/// float.
+constexpr float nearestShare = 1e-6f;
 constexpr int maxCrossings = 256; ///< of one ray, after which it counts as never leaving
 
 std::vector<std::uint32_t> bodiesOf(const scene::Scene& scene) {
@@ -38,12 +41,14 @@ double radicalInverse(std::uint32_t i) {
 Chords::Chords(trace::Geometry& geometry)
     : geometry_(geometry),
       set_(geometry.addSet(bodiesOf(geometry.scene()))),
-      millimetresPerUnit_(geometry.scene().metersPerUnit * millimetresPerMetre) {}
+      millimetresPerUnit_(geometry.scene().metersPerUnit * millimetresPerMetre),
+      nearest_(nearestShare * 2 * geometry.bounds(set_).radius()) {}
 
 std::optional<double> Chords::length(const glm::vec3& origin, const glm::vec3& direction) const {
     trace::Ray ray;
     ray.origin = origin;
     ray.direction = direction;
+    ray.tNear = nearest_;
     int depth = 1;
     for (int crossing = 0; crossing < maxCrossings; ++crossing) {
         const std::optional<trace::Hit> hit = geometry_.closest(ray, set_);
@@ -67,7 +72,9 @@ LocalThickness localThickness(const Chords& chords, const ThicknessLaw& law, con
                               std::uint32_t samples, trace::Random random) {
     const trace::Geometry& geometry = chords.geometry();
     const trace::SurfacePoint point = geometry.surfaceAt(place);
-    const glm::dvec3 inward = -glm::dvec3(point.normal);
+    // The side that the vertex normals point to is the outside, also of a triangle that is wound the other way.
+    const double side = glm::dot(point.normal, point.vertexNormal) < 0 ? 1 : -1;
+    const glm::dvec3 inward = side * glm::dvec3(point.normal);
     const glm::vec3 origin = geometry.movedOff(point.position, glm::vec3(inward));
     const trace::Frame frame(-glm::dvec3(point.vertexNormal));
     const double cosineShift = random.uniform();

@@ -32,6 +32,7 @@ private:
     const trace::Geometry& geometry_;
     trace::InstanceSet set_;
     double millimetresPerUnit_;
+    float nearest_; ///< scene units
 };
 
 /// What the chords from one point of a surface say.

@@ -139,9 +139,9 @@ TEST_F(BakeCommandTest, InterruptedItKeepsWhatItHas) {
     for (int i = 0; i < 600 && !std::filesystem::exists(folder() / "t.exr.checkpoint"); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    running.send(SIGINT);
+    running.send(SIGTERM);
     const Outcome outcome = running.wait();
-    EXPECT_EQ(outcome.exitCode, 128 + SIGINT);
+    EXPECT_EQ(outcome.exitCode, 128 + SIGTERM);
     EXPECT_NE(outcome.error.find("--resume"), std::string::npos) << outcome.error;
     EXPECT_FALSE(std::filesystem::exists(folder() / "t.exr"));
     expectComplaint(bake({"plate.glb", "-o", "t.exr"}), 1, {"t.exr.checkpoint", "--resume", "--restart"});
