@@ -183,16 +183,21 @@ std::vector<std::string> warningsOf(const BakeOptions& options, const bake::Thic
                            " texels are those of several places at once, and have the thickness of the first");
     }
     const auto above = std::ranges::count_if(bake.state().millimetres, [&](float value) { return value > white; });
-    if (options.form == BakeForm::Png && above > 0) {
+    if (options.white && above > 0) {
         warnings.push_back(std::to_string(above) + " texels are thicker than --white and were cut off there");
     }
     return warnings;
 }
 
-/// A thickness of 0 everywhere has no white of its own.
-double whiteOf(const BakeOptions& options, std::span<const float> millimetres) {
-    constexpr double leastWhite = 1e-3;
-    return options.form == BakeForm::Png ? options.white.value_or(std::max(rangeOf(millimetres).most, leastWhite)) : 0;
+/// Without --white, what one value in a thousand exceeds: those of open meshes can be far off.
+double whiteOf(const BakeOptions& options, std::vector<float> millimetres) {
+    if (options.form != BakeForm::Png || options.white) {
+        return options.white.value_or(0);
+    }
+    constexpr double leastWhite = 1e-3; // a thickness of 0 everywhere has no white of its own
+    const auto place = millimetres.begin() + static_cast<std::ptrdiff_t>((millimetres.size() - 1) * 999 / 1000);
+    std::ranges::nth_element(millimetres, place);
+    return std::max<double>(*place, leastWhite);
 }
 
 void finish(const BakeOptions& options, const BakeResult& result) {

@@ -17,7 +17,7 @@ The local thickness of a point does not depend on any light: it is that of the s
 it as the body does, in all directions. MODEL may be a scene file; without it the gallery is baked.
 
 FILE.exr has the thickness in millimetres (channel MM), padded beyond the surface's texels, and where those are (A).
-FILE.png is 8 bits of grey, white being the largest thickness or --white. It is the thicknessTexture of glTF's
+FILE.png is 8 bits of grey, white being --white or what one texel in a thousand exceeds. It is the thicknessTexture of glTF's
 KHR_materials_volume, whose thicknessFactor (metres) is printed.
 FILE.ply has a value for each vertex, for models without texture coordinates.
 FILE.checkpoint keeps what is done, so that --resume goes on where a run stopped.
@@ -50,8 +50,8 @@ BakeOptionParser::BakeOptionParser(CLI::App& command) {
     add("Result", "-o,--output", options_.output, "FILE.exr, FILE.png or FILE.ply; default " + options_.output.string(),
         "FILE");
     add("Result", "--size", size_, "Texels of the picture; default " + size_, "WxH");
-    add("Result", "--white", options_.white, "FILE.png: the thickness that white stands for; default the largest",
-        "MM");
+    add("Result", "--white", options_.white,
+        "FILE.png: the thickness that white stands for; default what one texel in a thousand exceeds", "MM");
     addJsonOption(command, options_.json)->group("Result");
 
     add("Body", "--surface", options_.surface, "Only this surface; a picture needs it where there are several", "NAME");

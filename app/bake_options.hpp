@@ -19,7 +19,7 @@ struct BakeOptions : SceneOptions {
     BakeForm form = BakeForm::Exr;
     std::string surface;         ///< a surface's name; empty = the only one
     bool neutral = false;        ///< of no material
-    std::optional<double> white; ///< [mm] Png; nothing = the largest thickness
+    std::optional<double> white; ///< [mm] Png; nothing = by the values
     bake::ThicknessSettings settings;
     bool resume = false;
     bool restart = false;
