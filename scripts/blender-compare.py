@@ -3,7 +3,7 @@
 
 Every case is traced four times: by `nacre reference` with the surface integral and with the random walk, and by Cycles with
 BURLEY and RANDOM_WALK, from the same mesh, camera and light, with the same material. A table tells PSNR and energy of Cycles'
-picture against ours, and how far two seeds of each are apart, which is their noise.
+picture against ours, how far two seeds of each are apart, and the PSNR that this noise alone would leave.
 
 What a radius means to Cycles is found on the shadow edge of the plane: its radius is scaled until the edge is as wide as
 ours, for each channel and method. BURLEY's d is nominally radius / 4 pi. Balls and heads then have that radius.
@@ -289,7 +289,10 @@ def row(bench, name, ours, cycles, radius):
     theirs = [bench.cycles(name, cycles, radius, seed) for seed in (1, 2)]
     psnr, energy = bench.compare(theirs[0], mine[0], mine[0])
     noise = [bench.compare(two[1], two[0], mine[0])[0] for two in (mine, theirs)]
-    cells = [name, ours, cycles, decibels(psnr)] + ["%+.1f" % (100 * (e - 1)) for e in energy]
+    chance = None
+    if None not in noise:  # two seeds differ by twice the variance of one picture
+        chance = -10 * math.log10(sum(10 ** (-value / 10) for value in noise) / 2)
+    cells = [name, ours, cycles, decibels(psnr), decibels(chance)] + ["%+.1f" % (100 * (e - 1)) for e in energy]
     return cells + [decibels(value) for value in noise]
 
 
@@ -338,7 +341,7 @@ def main():
         radii[method], ratios = calibrate(bench, method)
         print("%s: radius %s mm, %s of the nominal one" % (method, " ".join("%.3f" % r for r in radii[method]),
                                                           " ".join("%.3f" % r for r in ratios)), flush=True)
-    columns = ["case", "ours", "Cycles", "PSNR, dB", "R, %", "G, %", "B, %", "our noise, dB", "their noise, dB"]
+    columns = ["case", "ours", "Cycles", "PSNR, dB", "by noise alone, dB", "R, %", "G, %", "B, %", "our noise, dB", "their noise, dB"]
     print("\n| " + " | ".join(columns) + " |\n|" + "---|" * len(columns))
     for name in options.cases:
         pairs = [("off", "DIFFUSE", [0, 0, 0])] + [(OURS[m], m, radii[m]) for m in OURS]
