@@ -101,7 +101,7 @@ def set_up(job):
     cycles.use_denoising = False
     cycles.max_bounces = 0  # direct light alone; the ways under a surface are no bounces
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.pixel_filter_type = "BOX"
+    cycles.pixel_filter_type = "GAUSSIAN"  # a box is always a pixel wide
     cycles.filter_width = 0.01  # a pixel's middle
     scene.render.resolution_x, scene.render.resolution_y = job["size"]
     scene.render.resolution_percentage = 100
