@@ -1,6 +1,7 @@
 // `nacre compare`: how far one picture is from another.
 #include "app/command.hpp"
 #include "app/compare_report.hpp"
+#include "app/compare_suite.hpp"
 #include "app/progress.hpp"
 #include "image/false_color.hpp"
 #include "image/image_file.hpp"
@@ -83,9 +84,16 @@ void compare(const CompareOptions& options) {
 } // namespace
 
 void addCompare(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("compare", "Say how far a picture is from another");
+    CLI::App* command =
+        app.add_subcommand("compare", "Say how far a picture is from another, or techniques from references");
     const auto parser = std::make_shared<CompareOptionParser>(*command);
-    command->callback([parser] { compare(parser->finish()); });
+    command->callback([parser] {
+        if (parser->suite().isAsked()) {
+            compareSuite(parser->suite().finish());
+        } else {
+            compare(parser->finish());
+        }
+    });
 }
 
 } // namespace nacre::app

@@ -74,15 +74,19 @@ Examples:
 
 } // namespace
 
-CompareOptionParser::CompareOptionParser(CLI::App& command) {
-    const auto add = [&command](const char* group, const char* name, auto& value, const char* description,
-                                const char* type) {
-        command.add_option(name, value, description)->type_name(type)->group(group)->allow_extra_args(false);
+CompareOptionParser::CompareOptionParser(CLI::App& command) : suite_(command) {
+    CLI::Option* suite = command.get_option("--suite");
+    const auto add = [&](const char* group, const char* name, auto& value, const char* description, const char* type) {
+        command.add_option(name, value, description)
+            ->type_name(type)
+            ->group(group)
+            ->allow_extra_args(false)
+            ->excludes(suite);
     };
     command.add_option("TEST", options_.test, "The picture that is judged: PNG, JPEG, EXR or HDR")
         ->type_name("")
-        ->required();
-    command.add_option("REFERENCE", options_.reference, "What it should be")->type_name("")->required();
+        ->excludes(suite);
+    command.add_option("REFERENCE", options_.reference, "What it should be")->type_name("")->excludes(suite);
 
     add("Metric", "--metric", metric_, "FLIP of ldr (as shown) or hdr (linear light, all exposures); default auto",
         "NAME");
@@ -106,7 +110,7 @@ CompareOptionParser::CompareOptionParser(CLI::App& command) {
     add("Results", "--difference-range", differenceRange_, "The difference that is white; default the largest",
         "VALUE");
     add("Results", "--heat", options_.heat, "FLIP as colours: black 0, violet, red, orange, white 1", "FILE.png");
-    addJsonOption(command, options_.json)->group("Results");
+    addJsonOption(command, options_.json)->group("Results")->excludes(suite);
 
     add("Bounds", "--max-flip", options_.maxFlip, "Largest mean of FLIP", "[0..1]");
     add("Bounds", "--min-psnr", options_.minPsnr, "Smallest PSNR", "DB");
@@ -117,6 +121,9 @@ CompareOptionParser::CompareOptionParser(CLI::App& command) {
 
 CompareOptions CompareOptionParser::finish() const {
     CompareOptions options = options_;
+    if (options.test.empty() || options.reference.empty()) {
+        throw UsageError("TEST and REFERENCE are required, or --suite");
+    }
     options.metric = parseMetric(metric_);
     requireRange(options.pixelsPerDegree, 1, 1000, "--ppd");
     requireBound(peak_, 1e-30, largest, "--peak");

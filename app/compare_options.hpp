@@ -1,6 +1,7 @@
 // What `nacre compare` was asked for, parsed and checked; nothing here opens a file.
 #pragma once
 
+#include "app/suite_options.hpp"
 #include "image/flip.hpp"
 
 #include <filesystem>
@@ -49,8 +50,11 @@ public:
 
     /// The options, checked. Throws UsageError naming the option and its value.
     CompareOptions finish() const;
+    /// Those of --suite.
+    const AccuracySuiteParser& suite() const { return suite_; }
 
 private:
+    AccuracySuiteParser suite_;
     CompareOptions options_;
     std::string metric_ = "auto";
     std::optional<double> peak_;

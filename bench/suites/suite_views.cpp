@@ -35,6 +35,8 @@ std::shared_ptr<const View> litFrom(const char* side, scene::Scene scene, app::S
         View{app::sceneName(options) + ", " + side, std::make_shared<scene::Scene>(std::move(scene)), camera});
 }
 
+} // namespace
+
 scene::Bounds boundsOf(const scene::Scene& scene, const scene::Instance& instance) {
     scene::Bounds bounds;
     for (const scene::Vertex& vertex : scene.meshes[instance.mesh].vertices) {
@@ -45,7 +47,6 @@ scene::Bounds boundsOf(const scene::Scene& scene, const scene::Instance& instanc
     return bounds;
 }
 
-// From the side of the view's camera, filling most of the picture's height.
 scene::Camera lookAt(const scene::Bounds& bounds, const scene::Camera& from) {
     scene::Camera camera = from;
     const glm::vec3 direction = glm::normalize(from.position - from.target);
@@ -58,8 +59,6 @@ scene::Camera lookAt(const scene::Bounds& bounds, const scene::Camera& from) {
     camera.farPlane = 0;
     return camera;
 }
-
-} // namespace
 
 std::shared_ptr<const View> makeView(const std::filesystem::path& file, const char* side) {
     const app::SceneOptions options = optionsOf(file);

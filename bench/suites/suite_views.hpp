@@ -21,4 +21,10 @@ Views makeViews(const std::filesystem::path& file);
 /// The view, and close-ups of its `count` bodies with a subsurface material and the most triangles.
 std::vector<std::shared_ptr<const View>> closeUps(const std::shared_ptr<const View>& view, std::size_t count);
 
+/// Of one body, in the scene's units.
+scene::Bounds boundsOf(const scene::Scene& scene, const scene::Instance& instance);
+
+/// A camera on the side of `from` that sees the bounds fill most of the picture's height.
+scene::Camera lookAt(const scene::Bounds& bounds, const scene::Camera& from);
+
 } // namespace nacre::bench

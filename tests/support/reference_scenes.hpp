@@ -1,7 +1,7 @@
 // Small scenes in millimetres for the references: planes, slabs, balls, plates that cast shadows.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/primitive_meshes.hpp"
 
 namespace nacre::test {
 
@@ -16,14 +16,10 @@ Material burleyMaterial(const Rgb& meanFreePath);
 
 void addMesh(scene::Scene& scene, scene::Mesh mesh, std::uint32_t surface, const glm::mat4& transform = glm::mat4(1));
 
-/// The rectangle from low to high in x and z at height y, facing up.
-scene::Mesh rectangle(const glm::vec2& low, const glm::vec2& high, float y);
-/// A flat ring about the y axis at height y, facing up.
-scene::Mesh ring(float innerRadius, float outerRadius, float y, int segments = 256);
-/// A closed box, faces outwards.
-scene::Mesh box(const glm::vec3& low, const glm::vec3& high);
-/// A closed ball of triangles with smooth normals, its vertices on the sphere.
-scene::Mesh ball(float radius, int rings = 96);
+using scene::ball;
+using scene::box;
+using scene::rectangle;
+using scene::ring;
 
 /// Irradiance 1 on what faces it.
 scene::Light directionalLight(const glm::vec3& direction);
