@@ -70,7 +70,15 @@ Examples:
   nacre compare bank.exr brute.exr --mask id.exr:ID       only where the material id is not 0
   nacre compare bank.exr walk.exr --material 2 --heat where.png --difference signed.png
   nacre compare a.exr b.exr --material skin --report render.json --material-image id.exr
-  nacre compare a.exr b.exr --json result.json --min-psnr 40 --max-energy-error 0.005)";
+  nacre compare a.exr b.exr --json result.json --min-psnr 40 --max-energy-error 0.005
+
+--suite renders a fixed set of views with every technique, computes the surface integral and the random walk of each, and
+writes OUTPUT/accuracy.html, .json, .txt, .md, pictures and the references. References that are there and have samples
+enough are taken as they are, so that a run after a change of the real-time code renders alone.
+
+  nacre compare --suite --list
+  nacre compare --suite --view 'wedge-*' --view fin --technique bank --technique off --reference surface
+  nacre compare --suite --size 160x90 --time 5 --cache ~/references -o accuracy)";
 
 } // namespace
 

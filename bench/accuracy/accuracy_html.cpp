@@ -20,7 +20,7 @@ std::string heading(const std::string& text) {
 }
 
 std::string figures(const AccuracyFigures& figures) {
-    std::string text = cell(formatDecibels(figures.psnr));
+    std::string text = cell(formatPsnr(figures));
     for (const double ratio : figures.energy) {
         text += cell(formatEnergy(ratio));
     }
@@ -40,7 +40,7 @@ std::string overview(const AccuracyResults& results) {
             html += "<tr><td class=\"text\"><a href=\"#" + escapeHtml(view.name) + "\">" + escapeHtml(view.name) +
                     "</a></td>" + cell(reference.method);
             for (const AccuracyCell& entry : view.cells) {
-                html += entry.reference == reference.method ? cell(formatDecibels(entry.whole.psnr)) : "";
+                html += entry.reference == reference.method ? cell(formatPsnr(entry.whole)) : "";
             }
             html += cell(formatDecibels(reference.noisePsnr)) + "</tr>\n";
         }
@@ -53,13 +53,14 @@ public:
     Page(const AccuracyResults& results, const std::string& pictures) : results_(results), pictures_(pictures) {}
 
     std::string html() const {
-        std::string body = "<h1>Accuracy</h1>\n<p>Pictures of " + escapeHtml(results_.device) + ", Nacre " +
-                           results_.nacreVersion + ", " + std::to_string(results_.width) + " x " +
-                           std::to_string(results_.height) +
-                           " pixels. Energy is how much light there is too much or too little, in % of the "
-                           "reference's. Noise is the PSNR that a picture without error would have. Differences are "
-                           "grey where there is none, brighter where the technique has more light.</p>\n" +
-                           overview(results_);
+        std::string body =
+            "<h1>Accuracy</h1>\n<p>Pictures of " + escapeHtml(results_.device) + ", Nacre " + results_.nacreVersion +
+            ", " + std::to_string(results_.width) + " x " + std::to_string(results_.height) +
+            " pixels. Energy is how much light there is too much or too little, in % of the "
+            "reference's. The reference's noise is taken out of PSNR; > is a bound where the noise hides the rest. "
+            "Noise is the PSNR that a picture without error would have against the reference as it is. Differences are "
+            "grey where there is none, brighter where the technique has more light.</p>\n" +
+            overview(results_);
         for (const AccuracyViewResult& view : results_.views) {
             body += section(view);
         }

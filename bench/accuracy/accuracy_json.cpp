@@ -20,6 +20,8 @@ Json finite(double value) {
 Json toJson(const AccuracyFigures& figures) {
     return {{"pixels", figures.pixels},
             {"psnr", finite(figures.psnr)},
+            {"psnrWithoutNoise", finite(figures.psnrWithoutNoise)},
+            {"isBound", figures.isBound},
             {"energyRatio", {finite(figures.energy[0]), finite(figures.energy[1]), finite(figures.energy[2])}}};
 }
 

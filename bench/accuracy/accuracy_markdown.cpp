@@ -80,12 +80,12 @@ std::string inFull(const AccuracyResults& results, const std::string& method, co
         if (cell == nullptr) {
             continue;
         }
-        std::vector<std::string> cells{view.name, formatDecibels(cell->whole.psnr), energies(cell->whole),
+        std::vector<std::string> cells{view.name, formatPsnr(cell->whole), energies(cell->whole),
                                        formatShort(cell->flip)};
         if (cell->thin) {
             const double share =
                 100 * static_cast<double>(cell->thin->pixels) / static_cast<double>(cell->whole.pixels);
-            cells.insert(cells.end(), {formatWhole(share), formatDecibels(cell->thin->psnr), energies(*cell->thin)});
+            cells.insert(cells.end(), {formatWhole(share), formatPsnr(*cell->thin), energies(*cell->thin)});
         } else {
             cells.insert(cells.end(), {"0", "", ""});
         }
@@ -111,7 +111,7 @@ std::string formatAccuracyMarkdown(const AccuracyResults& results) {
         const bool isWalk = method == "walk";
         text += std::string("## Against the ") + (isWalk ? "random walk" : "surface integral") + "\n\nPSNR, dB:\n\n";
         text += byTechnique(
-            results, method, [](const AccuracyCell& cell) { return formatDecibels(cell.whole.psnr); }, "noise",
+            results, method, [](const AccuracyCell& cell) { return formatPsnr(cell.whole); }, "noise",
             [](const AccuracyReference& r) { return formatDecibels(r.noisePsnr); });
         text += "Energy, mean of the three channels, % too much or too little:\n\n";
         text += byTechnique(

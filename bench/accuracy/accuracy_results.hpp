@@ -9,12 +9,20 @@
 
 namespace nacre::bench {
 
-/// Errors over some pixels.
+/// Errors over some pixels. The peak of PSNR is the reference's largest value.
 struct AccuracyFigures {
     std::size_t pixels = 0;
-    double psnr = 0;                ///< dB; the peak is the reference's largest value. Infinite where nothing differs
+    double psnr = 0; ///< dB; infinite where nothing differs
+    /// dB, of the mean squared error less the reference's mean variance, which is what its noise adds to it: what the
+    /// picture has against a reference without noise.
+    double psnrWithoutNoise = 0;
+    /// Too little is left to be told from noise (noiseResolution): psnrWithoutNoise is a lower bound.
+    bool isBound = false;
     std::array<double, 3> energy{}; ///< of R, G and B: the picture's sum over the reference's
 };
+
+/// An error below this share of the noise's mean square is not told from it, which is 10 dB more than the noise has.
+inline constexpr double noiseResolution = 0.1;
 
 /// A technique's picture of a view against one of its references.
 struct AccuracyCell {

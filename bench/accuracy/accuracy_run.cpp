@@ -6,8 +6,8 @@
 #include "image/comparison.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace nacre::bench {
@@ -63,12 +63,13 @@ Rendered render(renderer::Offscreen& renderer, const scene::Camera& camera, cons
     return result;
 }
 
-double noisePsnr(const Image& variance, const Mask& mask, double peak) {
+/// Mean over pixels that count and channels.
+double meanVariance(const Image& variance, const Mask& mask) {
     double sum = 0;
     for (std::size_t i = 0; i < variance.values.size(); ++i) {
         sum += mask[i / 3] != 0 ? static_cast<double>(variance.values[i]) : 0;
     }
-    return psnr(sum / (3.0 * static_cast<double>(countedPixels(variance, mask))), peak);
+    return sum / (3.0 * static_cast<double>(countedPixels(variance, mask)));
 }
 
 AccuracyFigures figures(const Image& picture, const Target& target, const Mask& mask, double peak) {
@@ -81,6 +82,10 @@ AccuracyFigures figures(const Image& picture, const Target& target, const Mask& 
         result.energy[channel] = sums[channel].energyRatio();
     }
     result.psnr = all.psnr(peak);
+    const double noise = meanVariance(target.variance, mask);
+    const double error = all.meanSquaredError() - noise;
+    result.isBound = error < noiseResolution * noise;
+    result.psnrWithoutNoise = psnr(std::max(error, noiseResolution * noise), peak);
     return result;
 }
 
@@ -173,7 +178,7 @@ private:
             for (std::size_t i = targets.size(); i < films.size(); ++i) {
                 targets.push_back(targetOf(films[i], result_.references[i].method, rendered.materialIds));
                 const double peak = quantile(targets[i].picture, 1, targets[i].mask);
-                result_.references[i].noisePsnr = noisePsnr(targets[i].variance, targets[i].mask, peak);
+                result_.references[i].noisePsnr = psnr(meanVariance(targets[i].variance, targets[i].mask), peak);
                 pictures.addReference(targets[i].method, targets[i].picture);
             }
             pictures.addTechnique(technique.name, blackened(rendered.picture, targets.front().mask));
@@ -191,6 +196,20 @@ private:
     AccuracyView view_;
     AccuracyViewResult result_;
 };
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// "[3/32, about 12 min left]", as if the views to come took as long as those before
+std::string progressOf(std::size_t done, std::size_t count, double seconds) {
+    std::string text = '[' + std::to_string(done + 1) + '/' + std::to_string(count);
+    if (done > 0) {
+        const double left = seconds * static_cast<double>(count - done) / static_cast<double>(done);
+        text += ", about " + std::to_string(std::lround(std::ceil(left / 60))) + " min left";
+    }
+    return text + ']';
+}
 
 } // namespace
 
@@ -217,9 +236,9 @@ AccuracyResults runAccuracy(renderer::Device& device, const AccuracyPlan& plan, 
                             .width = plan.size.width,
                             .height = plan.size.height};
     ViewRun run(device, plan, reporter);
+    const auto begin = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < plan.views.size(); ++i) {
-        const std::string number = '[' + std::to_string(i + 1) + '/' + std::to_string(plan.views.size()) + ']';
-        results.views.push_back(run(plan.views[i], number));
+        results.views.push_back(run(plan.views[i], progressOf(i, plan.views.size(), secondsSince(begin))));
         reporter.finished(results.views.back());
     }
     return results;

@@ -14,15 +14,18 @@ template <typename... Values> std::string format(const char* pattern, Values... 
 }
 
 std::string describe(const AccuracyFigures& figures) {
-    return format("%7s dB  %6s %6s %6s %%", formatDecibels(figures.psnr).c_str(),
-                  formatEnergy(figures.energy[0]).c_str(), formatEnergy(figures.energy[1]).c_str(),
-                  formatEnergy(figures.energy[2]).c_str());
+    return format("%7s dB  %6s %6s %6s %%", formatPsnr(figures).c_str(), formatEnergy(figures.energy[0]).c_str(),
+                  formatEnergy(figures.energy[1]).c_str(), formatEnergy(figures.energy[2]).c_str());
 }
 
 } // namespace
 
 std::string formatDecibels(double psnr) {
     return std::isinf(psnr) ? "inf" : format("%.1f", psnr);
+}
+
+std::string formatPsnr(const AccuracyFigures& figures) {
+    return (figures.isBound ? "> " : "") + formatDecibels(figures.psnrWithoutNoise);
 }
 
 std::string formatEnergy(double ratio) {

@@ -10,6 +10,8 @@ std::string formatAccuracyText(const AccuracyViewResult& view);
 
 /// "47.5", "∞"
 std::string formatDecibels(double psnr);
+/// AccuracyFigures::psnrWithoutNoise: "47.5", and "> 47.5" where it is a bound
+std::string formatPsnr(const AccuracyFigures& figures);
 /// "-1.5": how far it is from 1, in %
 std::string formatEnergy(double ratio);
 /// "0.0123"

@@ -238,7 +238,7 @@ std::vector<AccuracyViewEntry> accuracyViews() {
 }
 
 std::vector<AccuracyViewEntry> accuracyViewsOf(const std::filesystem::path& file) {
-    const std::string name = file.stem().string();
+    const std::string name = "model-" + file.stem().string(); // no name of the fixed set
     return {
         {name + "-front", file.filename().string() + ", lit from the front",
          [file] { return fileView(file, "front"); }},
