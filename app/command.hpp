@@ -28,6 +28,7 @@ void addCompare(CLI::App& app);
 void addMaterial(CLI::App& app);
 void addDevices(CLI::App& app);
 void addBench(CLI::App& app);
+void addView(CLI::App& app);
 
 /// Throws std::runtime_error, naming the file, where `file` cannot be written: its folder is missing or not writable,
 /// or it is a folder itself. "-" is standard output. Leaves nothing behind.

@@ -23,6 +23,7 @@ constexpr const char* examples = R"(Examples:
   nacre bake thickness model.glb -o T.png               how thick it is, as a texture
   nacre compare frame.exr reference.exr                 how far a picture is from another
   nacre material list                                   what there is to render with
+  nacre view model.glb                                  a window to build materials in
   nacre devices                                         what there is to render on
 `nacre COMMAND --help` tells the rest.)";
 
@@ -92,6 +93,7 @@ int main(int argumentCount, char** arguments) {
         nacre::app::addMaterial(app);
         nacre::app::addDevices(app);
         nacre::app::addBench(app);
+        nacre::app::addView(app);
         refuseEmptyValues(app);
         return run(app, argumentCount, arguments);
     } catch (const nacre::app::UsageError& error) {

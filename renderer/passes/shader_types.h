@@ -88,7 +88,46 @@ struct EnvironmentConstants {
     vec4 rotation; ///< x, y: cosine and sine of the rotation about +Y; z: intensity
 };
 
+/// AccumulateConstants::image.x, as ShownImage. Up to shownSpecular they are light.
+NACRE_CONSTANT shownPicture = 0;
+NACRE_CONSTANT shownDiffuse = 1;
+NACRE_CONSTANT shownIrradiance = 2;
+NACRE_CONSTANT shownScattered = 3;
+NACRE_CONSTANT shownTransmitted = 4;
+NACRE_CONSTANT shownSpecular = 5;
+NACRE_CONSTANT shownAlbedo = 6;
+NACRE_CONSTANT shownNormal = 7;
+NACRE_CONSTANT shownDepth = 8;
+NACRE_CONSTANT shownThickness = 9;
+NACRE_CONSTANT shownMaterial = 10;
+NACRE_CONSTANT shownGiven = 11;
+
+/// AccumulateConstants::effect.w, as ToneCurve.
+NACRE_CONSTANT curveNeutral = 0;
+
+/// ShowConstants::place.z, as ShownSides.
+NACRE_CONSTANT showFirst = 0;
+NACRE_CONSTANT showBoth = 1;
+NACRE_CONSTANT showDifference = 2;
+
+/// A sample that is added to a side.
+struct AccumulateConstants {
+    uvec4 image;  ///< x: which, y: samples that are there, w: 1 where a given picture is what a display shows
+    uvec4 size;   ///< x, y: pixels, z: the side's first pixel among all
+    uvec4 effect; ///< x: scatter, y: scattered has albedo, z: transmit, w: tone curve
+    vec4 range;   ///< x, y: values at the ends of depth and thickness, z: exposure
+};
+
+/// The window's pixels.
+struct ShowConstants {
+    uvec4 place;    ///< x, y: pixels, z: what, w: 1 for B G R A
+    uvec4 sides[2]; ///< x, y: pixels, z: first pixel
+    vec4 divider;   ///< x: where the second side begins, [0, 1]; y: what a difference is multiplied by
+};
+
 #ifdef __cplusplus
+static_assert(sizeof(AccumulateConstants) == 64);
+static_assert(sizeof(ShowConstants) == 64);
 static_assert(sizeof(ViewConstants) == 176);
 static_assert(sizeof(SurfaceConstants) == 96);
 static_assert(sizeof(DrawConstants) == 80);

@@ -1,0 +1,72 @@
+// The scene that is open: what its file has, what was edited, and the history of that.
+#pragma once
+
+#include "view/model/edited_scene.hpp"
+
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+
+#include <filesystem>
+#include <functional>
+
+class QFileSystemWatcher;
+
+namespace nacre::view {
+
+class Document : public QObject {
+    Q_OBJECT
+
+public:
+    explicit Document(QObject* parent = nullptr);
+
+    /// Opens a scene file or a model; an empty name opens the gallery. `material`, if there is one, replaces the
+    /// scene's materials. Throws what the importers throw, and then keeps what was open.
+    void open(const std::filesystem::path& file, const std::optional<Material>& material = std::nullopt);
+    void openScene(scene::Scene scene, const std::filesystem::path& file);
+
+    /// The scene as its file has it; materials are there for all that `edited` has.
+    const scene::Scene& scene() const { return scene_; }
+    const EditedScene& edited() const { return edited_; }
+    /// The scene with what was edited in it.
+    scene::Scene current() const;
+    const std::filesystem::path& file() const { return file_; }
+    /// "gallery", or the file's name without its folder.
+    QString name() const;
+
+    /// Changes the scene, as a step of the history that undo calls `text`. Steps with one key that is not empty and
+    /// without endEdit between them become one.
+    void edit(const QString& text, const QString& key, const std::function<void(EditedScene&)>& change);
+    void endEdit() { ++edit_; }
+    QUndoStack& history() { return history_; }
+
+    /// Which material, layer and light the panels show.
+    std::size_t material() const { return material_; }
+    std::size_t light() const { return light_; }
+    void select(std::size_t material);
+    void selectLight(std::size_t light);
+
+    /// Sets what was edited, from a command of the history.
+    void restore(const EditedScene& edited);
+
+Q_SIGNALS:
+    void opened();
+    void changed();
+    void selectionChanged();
+    /// A file that the scene was read from has changed.
+    void changedOnDisk();
+
+private:
+    void watch();
+
+    scene::Scene scene_;
+    EditedScene edited_;
+    std::filesystem::path file_;
+    QUndoStack history_;
+    QFileSystemWatcher* watcher_;
+    int edit_ = 0;
+    std::size_t material_ = 0;
+    std::size_t light_ = 0;
+};
+
+} // namespace nacre::view

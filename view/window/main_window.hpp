@@ -1,0 +1,109 @@
+// The viewer's window: the picture, panels beside it, menus and status bar.
+#pragma once
+
+#include "view/loop/picture_loop.hpp"
+#include "view/window/document.hpp"
+#include "view/window/picture_window.hpp"
+
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QMainWindow>
+#include <QVulkanInstance>
+
+#include <memory>
+
+namespace nacre::view {
+
+class LookPanel;
+
+/// What the window is opened with.
+struct WindowSettings {
+    std::filesystem::path input; ///< empty: the gallery
+    std::optional<Material> material;
+    renderer::DeviceSettings device;
+};
+
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+
+public:
+    explicit MainWindow(const WindowSettings& settings);
+    ~MainWindow() override;
+
+    Document& document() { return document_; }
+    PictureLoop* loop() { return loop_.get(); }
+    PictureWindow& picture() { return *picture_; }
+    const renderer::Device& device() const { return device_; }
+
+    /// Opens a file, or the gallery where the name is empty. What goes wrong is said in a dialogue; false then.
+    bool openFile(const QString& file);
+    /// Draws until everything that is shown has all its samples.
+    bool drawUntilStill(int milliseconds);
+    /// Says a sentence that the user has to see. Scripts and tests read it in `lastFault`.
+    void complain(const QString& sentence);
+    const QString& lastFault() const { return lastFault_; }
+    /// Faults are only noted, and nothing asks: for scripts.
+    void setQuiet(bool quiet) { quiet_ = quiet; }
+
+protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    struct Action {
+        const char* name;
+        const char* text;
+        QKeySequence shortcut;
+        const char* toolTip;
+        void (MainWindow::*run)();
+    };
+
+    void makeMenus();
+    void addActions(const QString& menu, std::span<const Action> actions);
+    void makePanels();
+    QDockWidget* addPanel(const QString& title, QWidget* widget, Qt::DockWidgetArea area);
+    void makeStatusBar();
+    void fillRecent();
+    void rememberRecent(const QString& file);
+    void restoreWindow();
+
+    void sceneOpened();
+    void applyScene();
+    void applyView();
+    void showStatus();
+    void pick(QPointF place);
+    void openDropped(const QString& file);
+    void openPath(const std::filesystem::path& file, const std::optional<Material>& material);
+    void makeLoop();
+
+    void chooseFile();
+    void openGallery();
+    void reload();
+    void savePicture();
+    void resetCamera();
+    void showShortcuts();
+    void setDark(bool dark);
+
+    WindowSettings settings_;
+    renderer::Device device_;
+    QVulkanInstance instance_;
+    Document document_;
+    scene::Scene drawn_; ///< what the loop was made with
+    std::unique_ptr<PictureLoop> loop_;
+    PictureWindow* picture_;
+    QWidget* pictureContainer_;
+    LookPanel* look_ = nullptr;
+    QMenu* recent_ = nullptr;
+    QLabel* pictureStatus_ = nullptr;
+    QLabel* deviceStatus_ = nullptr;
+    QString lastFault_;
+    bool quiet_ = false;
+    bool opening_ = false;
+};
+
+/// The Vulkan extensions that a window of the running platform needs; empty where there are none to be had.
+std::vector<std::string> surfaceExtensions();
+
+} // namespace nacre::view
