@@ -23,7 +23,6 @@ namespace {
 
 using scene::Camera;
 using scene::Light;
-using scene::LightKind;
 using scene::Scene;
 
 enum class Side { Front, Back, Both };
@@ -38,24 +37,13 @@ std::optional<Side> sideNamed(std::string_view name) {
     return name == "both" ? std::optional(Side::Both) : std::nullopt;
 }
 
-Side sideOf(const Light& light, const Camera& camera, const glm::vec3& center) {
-    const glm::vec3 travel = light.kind == LightKind::Directional ? light.direction : center - light.position;
-    return glm::dot(travel, camera.target - camera.position) >= 0 ? Side::Front : Side::Back;
-}
-
-std::vector<Light> builtInLights(const Scene& scene) {
-    Scene bare;
-    bare.cameras = scene.cameras; // at least one; the lights go with it
-    scene::addMissingViewAndLights(bare);
-    return bare.lights;
-}
-
 /// Marks the lights on that side; false when there is none.
 bool markSide(Side side, const std::vector<Light>& lights, const Camera& camera, const glm::vec3& center,
               std::vector<bool>& marks) {
     bool any = false;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const bool isThere = side == Side::Both || sideOf(lights[i], camera, center) == side;
+        const bool isThere =
+            side == Side::Both || scene::isInFront(lights[i], camera, center) == (side == Side::Front);
         marks[i] = marks[i] || isThere;
         any = any || isThere;
     }
@@ -113,7 +101,7 @@ void chooseLights(const SceneOptions& options, Scene& scene) {
     }
     const Camera camera = makeCamera(options, scene);
     const glm::vec3 center = scene::bounds(scene).center();
-    const std::vector<Light> builtIn = builtInLights(scene);
+    const std::vector<Light> builtIn = scene::builtInLights(scene);
     std::vector<bool> chosen(scene.lights.size()); // so that what is named twice shines once
     std::vector<bool> added(builtIn.size());
     for (const std::string& name : options.lights) {

@@ -76,6 +76,18 @@ void addMissingViewAndLights(Scene& scene) {
     }
 }
 
+std::vector<Light> builtInLights(const Scene& scene) {
+    Scene bare;
+    bare.cameras = scene.cameras;
+    addMissingViewAndLights(bare);
+    return bare.lights;
+}
+
+bool isInFront(const Light& light, const Camera& camera, const glm::vec3& center) {
+    const glm::vec3 travel = light.kind == LightKind::Directional ? light.direction : center - light.position;
+    return glm::dot(travel, camera.target - camera.position) >= 0;
+}
+
 void fitLights(Scene& scene) {
     const float irradiance = irradianceInTheMiddle(scene);
     constexpr float white = std::numbers::pi_v<float>; // makes a white surface's radiance 1

@@ -1,8 +1,13 @@
 #include "view/window/main_window.hpp"
 
-#include "image/image_file.hpp"
 #include "renderer/vulkan/open_device.hpp"
+#include "scene/scene.hpp"
+#include "view/window/compare_panel.hpp"
+#include "view/window/inspect_panel.hpp"
 #include "view/window/look_panel.hpp"
+#include "view/window/material_panel.hpp"
+#include "view/window/recovery.hpp"
+#include "view/window/timing_panel.hpp"
 
 #include <QApplication>
 #include <QCloseEvent>
@@ -20,6 +25,21 @@ namespace {
 
 constexpr std::uint32_t softwareShadowMapSize = 512;
 constexpr std::uint32_t softwareSamples = 16;
+constexpr float composedAspect = 16.0f / 9; // what scenes' cameras are made for
+constexpr int recoveryMilliseconds = 500;   // after an edit, until it is safe
+
+bool sameEffect(const renderer::EffectSettings& one, const renderer::EffectSettings& other) {
+    return one.technique == other.technique && one.scatter == other.scatter && one.transmit == other.transmit;
+}
+
+/// What scatter and transmit took of a frame, ms.
+double effectMilliseconds(const renderer::FrameReport& report) {
+    double sum = 0;
+    for (const renderer::PassTime& pass : report.passes) {
+        sum += pass.name.starts_with("scatter") || pass.name.starts_with("transmit") ? pass.microseconds / 1e3 : 0;
+    }
+    return sum;
+}
 
 /// The device, with what a window needs.
 renderer::DeviceSettings windowDevice(renderer::DeviceSettings settings) {
@@ -72,9 +92,21 @@ MainWindow::MainWindow(const WindowSettings& settings) : settings_(settings), de
     connect(picture_, &PictureWindow::clicked, this, &MainWindow::pick);
     connect(picture_, &PictureWindow::dropped, this, &MainWindow::openDropped);
     connect(picture_, &PictureWindow::keyed, this, [this](QKeyEvent* event) { keyPressEvent(event); });
+    connect(picture_, &PictureWindow::dividerMoved, compare_, &ComparePanel::setDivider);
+    connect(picture_, &PictureWindow::cameraMoved, compare_, &ComparePanel::outdate);
+    recovery_ = std::make_unique<Recovery>();
+    recoveryTimer_.setSingleShot(true);
+    connect(&recoveryTimer_, &QTimer::timeout, this, [this] {
+        try {
+            recovery_->save(QString::fromStdString(document_.file().string()), document_.edited());
+        } catch (const std::exception& error) {
+            complain(QString::fromUtf8(error.what()));
+        }
+    });
 }
 
 MainWindow::~MainWindow() {
+    compare_->stop();
     picture_->setLoop(nullptr, picture_->camera(), 1);
     // The picture's surface has to go before its instance, which is the device's.
     delete pictureContainer_;
@@ -134,15 +166,23 @@ void MainWindow::makeLoop() {
         settings.stillSamples = softwareSamples;
     }
     loop_ = std::make_unique<PictureLoop>(device_, drawn_, settings);
+    sides_ = {};
+    for (std::uint32_t side = 0; side < renderer::Accumulation::sideCount; ++side) {
+        loop_->setSide(side, sides_[side]);
+    }
 }
 
 void MainWindow::sceneOpened() {
     picture_->setLoop(nullptr, picture_->camera(), 1);
+    compare_->outdate();
+    geometry_.reset();
     loop_.reset();
     drawn_ = document_.scene();
     makeLoop();
+    loop_->onFinished = [this](const renderer::FrameReport& report) { timing_->add(report, loop_->stepMilliseconds()); };
     applyView();
-    picture_->setLoop(loop_.get(), drawn_.cameras.at(0), scene::bounds(drawn_).radius());
+    picture_->setLoop(loop_.get(), firstCamera(), scene::bounds(drawn_).radius());
+    inspect_->show(std::nullopt);
     setWindowTitle("Nacre – " + document_.name());
 }
 
@@ -160,23 +200,47 @@ void MainWindow::applyScene() {
         applyView();
         if (!opening_) {
             picture_->move();
+            compare_->outdate();
+            recoveryTimer_.start(recoveryMilliseconds);
         }
     } catch (const std::exception& error) {
         complain(QString::fromUtf8(error.what()));
     }
 }
 
+/// The scene's first camera. A window that is narrower than pictures are composed for shows as much from left to right.
+scene::Camera MainWindow::firstCamera() const {
+    scene::Camera camera = drawn_.cameras.at(0);
+    const QSize size = picture_->pictureSize();
+    const float widen = std::max(1.0f, composedAspect * static_cast<float>(size.height()) / static_cast<float>(size.width()));
+    camera.verticalFieldOfView = 2 * std::atan(widen * std::tan(camera.verticalFieldOfView / 2));
+    camera.orthographicHeight *= widen;
+    return camera;
+}
+
 /// What is shown of the frames.
 void MainWindow::applyView() {
-    SideSettings side;
-    side.look.image = look_->image();
-    side.look.curve = look_->toneCurve();
-    side.look.exposure = document_.scene().exposure * std::exp2(document_.edited().exposureStops);
+    if (!loop_) {
+        return;
+    }
+    renderer::SampleLook look;
+    look.image = look_->image();
+    look.curve = look_->toneCurve();
+    look.exposure = document_.scene().exposure * std::exp2(document_.edited().exposureStops);
     const glm::vec3 center = scene::bounds(drawn_).center();
-    const float distance = glm::distance(picture_->camera().position, center);
+    const float distance = glm::distance(drawn_.cameras.at(0).position, center);
     const float radius = scene::bounds(drawn_).radius();
-    side.look.depthRange = {std::max(0.0f, distance - radius), distance + radius};
-    loop_->setSide(0, side);
+    look.depthRange = {std::max(0.0f, distance - radius), distance + radius};
+    for (std::uint32_t side = 0; side < renderer::Accumulation::sideCount; ++side) {
+        const SideSettings wanted = compare_->side(side, look);
+        if (!(wanted.look == sides_[side].look) || !sameEffect(wanted.effect, sides_[side].effect)) {
+            loop_->setSide(side, wanted);
+            sides_[side] = wanted;
+        }
+    }
+    loop_->setShown(compare_->shown());
+    picture_->setComparing(compare_->isComparing() && compare_->shown().sides == renderer::ShownSides::Both);
+    measured_ = false;
     picture_->wake();
 }
 
@@ -194,9 +258,15 @@ void MainWindow::showStatus() {
     if (report.totalMicroseconds > 0) {
         text += QString("   frame %1 ms, effect %2 ms")
                     .arg(report.totalMicroseconds / 1e3, 0, 'f', report.totalMicroseconds < 1e4 ? 2 : 0)
-                    .arg(report.effectMicroseconds / 1e3, 0, 'f', report.effectMicroseconds < 1e4 ? 2 : 0);
+                    .arg(effectMilliseconds(report), 0, 'f', report.totalMicroseconds < 1e4 ? 2 : 0);
     }
     pictureStatus_->setText(text);
+    if (!loop_->isConverged()) {
+        measured_ = false;
+    } else if (!measured_) {
+        measured_ = true;
+        compare_->measure();
+    }
 }
 
 bool MainWindow::drawUntilStill(int milliseconds) {
@@ -224,14 +294,80 @@ void MainWindow::complain(const QString& sentence) {
     }
 }
 
+const trace::Geometry& MainWindow::geometry() {
+    if (!geometry_) {
+        QApplication::setOverrideCursor(Qt::WaitCursor);
+        geometry_ = std::make_shared<trace::Geometry>(drawn_);
+        QApplication::restoreOverrideCursor();
+    }
+    return *geometry_;
+}
+
+void MainWindow::pick(QPointF place) {
+    try {
+        const std::optional<Inspection> found =
+            inspect(geometry(), document_.edited(), picture_->camera(), sides_[0].effect, {place.x(), place.y()},
+                    loop_->extent().width, loop_->extent().height);
+        if (found && found->material) {
+            document_.select(*found->material);
+            material_->setScale(found->pixelsPerMillimeter);
+        }
+        inspect_->show(found);
+        statusBar()->showMessage(found ? QString::fromStdString(found->body + ": " + found->sentence)
+                                       : QString("There is no body at that place."));
+    } catch (const std::exception& error) {
+        complain(QString::fromUtf8(error.what()));
+    }
+}
+
+std::unique_ptr<ReferenceTask> MainWindow::makeReference() const {
+    return std::make_unique<ReferenceTask>(document_.current(), picture_->camera(), loop_->extent().width,
+                                           loop_->extent().height);
+}
+
+/// Materials go to files of their own; scenes and environments are opened.
 void MainWindow::openDropped(const QString& file) {
-    openFile(file);
+    if (!file.endsWith(".json")) {
+        openFile(file);
+        return;
+    }
+    bool isMaterial = true;
+    try {
+        static_cast<void>(loadMaterial(file.toStdString()));
+    } catch (const std::exception&) {
+        isMaterial = false;
+    }
+    if (isMaterial) {
+        material_->load(file);
+    } else {
+        openFile(file);
+    }
+}
+
+void MainWindow::offerRecovered() {
+    const std::optional<Recovered> found = Recovery::take();
+    if (!found || quiet_ ||
+        QMessageBox::question(this, "Nacre",
+                              "The viewer ended without being closed. Go on with the materials that were edited then?") !=
+            QMessageBox::Yes) {
+        return;
+    }
+    if (found->scene != QString::fromStdString(document_.file().string()) && !openFile(found->scene)) {
+        return;
+    }
+    document_.edit("recover", {}, [&](EditedScene& scene) {
+        for (std::size_t i = 0; i < std::min(scene.materials.size(), found->materials.size()); ++i) {
+            scene.materials[i] = {found->materials[i], {}};
+            applyToSurfaces(scene, i);
+        }
+    });
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
     if (!quiet_) {
         QSettings().setValue("geometry", saveGeometry());
     }
+    compare_->stop();
     event->accept();
 }
 

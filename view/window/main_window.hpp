@@ -1,7 +1,9 @@
 // The viewer's window: the picture, panels beside it, menus and status bar.
 #pragma once
 
+#include "trace/geometry.hpp"
 #include "view/loop/picture_loop.hpp"
+#include "view/loop/reference_task.hpp"
 #include "view/window/document.hpp"
 #include "view/window/picture_window.hpp"
 
@@ -14,7 +16,13 @@
 
 namespace nacre::view {
 
+class ComparePanel;
+class InspectPanel;
+class LightPanel;
 class LookPanel;
+class MaterialPanel;
+class Recovery;
+class TimingPanel;
 
 /// What the window is opened with.
 struct WindowSettings {
@@ -39,6 +47,8 @@ public:
     bool openFile(const QString& file);
     /// Draws until everything that is shown has all its samples.
     bool drawUntilStill(int milliseconds);
+    /// Asks whether to go on with what a program that crashed has left.
+    void offerRecovered();
     /// Says a sentence that the user has to see. Scripts and tests read it in `lastFault`.
     void complain(const QString& sentence);
     const QString& lastFault() const { return lastFault_; }
@@ -74,6 +84,9 @@ private:
     void applyView();
     void showStatus();
     void pick(QPointF place);
+    std::unique_ptr<ReferenceTask> makeReference() const;
+    const trace::Geometry& geometry();
+    scene::Camera firstCamera() const;
     void openDropped(const QString& file);
     void openPath(const std::filesystem::path& file, const std::optional<Material>& material);
     void makeLoop();
@@ -84,6 +97,8 @@ private:
     void savePicture();
     void resetCamera();
     void showShortcuts();
+    void cycleCompare();
+    void reloadShaders();
     void setDark(bool dark);
 
     WindowSettings settings_;
@@ -94,13 +109,23 @@ private:
     std::unique_ptr<PictureLoop> loop_;
     PictureWindow* picture_;
     QWidget* pictureContainer_;
+    std::shared_ptr<trace::Geometry> geometry_; ///< of `drawn_`; made when it is first asked for
+    std::unique_ptr<Recovery> recovery_;
+    QTimer recoveryTimer_;
     LookPanel* look_ = nullptr;
+    MaterialPanel* material_ = nullptr;
+    LightPanel* lights_ = nullptr;
+    ComparePanel* compare_ = nullptr;
+    InspectPanel* inspect_ = nullptr;
+    TimingPanel* timing_ = nullptr;
     QMenu* recent_ = nullptr;
     QLabel* pictureStatus_ = nullptr;
     QLabel* deviceStatus_ = nullptr;
+    std::array<SideSettings, renderer::Accumulation::sideCount> sides_; ///< as the loop has them
     QString lastFault_;
     bool quiet_ = false;
     bool opening_ = false;
+    bool measured_ = false;
 };
 
 /// The Vulkan extensions that a window of the running platform needs; empty where there are none to be had.

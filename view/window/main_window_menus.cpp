@@ -1,7 +1,12 @@
 // Menus, panels and status bar of the window.
 #include "image/image_file.hpp"
+#include "view/window/compare_panel.hpp"
+#include "view/window/inspect_panel.hpp"
+#include "view/window/light_panel.hpp"
 #include "view/window/look_panel.hpp"
 #include "view/window/main_window.hpp"
+#include "view/window/material_panel.hpp"
+#include "view/window/timing_panel.hpp"
 
 #include <QApplication>
 #include <QDockWidget>
@@ -23,6 +28,17 @@ namespace {
 constexpr int mostRecent = 8;
 constexpr const char* openFilter =
     "Scenes and models (*.json *.gltf *.glb *.obj *.ply *.stl *.fbx *.dae *.3ds);;All files (*)";
+
+/// What the mouse and keys do in the picture.
+struct MouseRow {
+    const char* keys;
+    const char* what;
+};
+constexpr std::array mouse{
+    MouseRow{"drag", "go around what is looked at"},     MouseRow{"Shift and drag, middle button", "shift the picture"},
+    MouseRow{"wheel, Ctrl and drag", "closer, farther"}, MouseRow{"right button", "look around"},
+    MouseRow{"W A S D Q E", "fly"},                      MouseRow{"click", "choose a body's material, and say what is there"},
+    MouseRow{"drop", "open a scene, a model or a material"}};
 
 QPalette darkPalette() {
     const QColor window(45, 45, 48);
@@ -50,9 +66,32 @@ QPalette darkPalette() {
 } // namespace
 
 void MainWindow::makePanels() {
+    material_ = new MaterialPanel(document_);
+    lights_ = new LightPanel(document_, [this] { return picture_->camera(); });
+    compare_ = new ComparePanel;
     look_ = new LookPanel(document_);
+    inspect_ = new InspectPanel(document_);
+    timing_ = new TimingPanel;
+    connect(material_, &MaterialPanel::failed, this, &MainWindow::complain);
     connect(look_, &LookPanel::chosen, this, &MainWindow::applyView);
-    addPanel("Picture", look_, Qt::RightDockWidgetArea);
+    connect(compare_, &ComparePanel::chosen, this, &MainWindow::applyView);
+    connect(compare_, &ComparePanel::failed, this, &MainWindow::complain);
+    connect(compare_, &ComparePanel::given, this, [this](const Image& image) { loop_->setGiven(image); });
+    compare_->makeReference = [this] { return makeReference(); };
+    compare_->readSide = [this](std::uint32_t side) { return loop_->read(side); };
+
+    QDockWidget* material = addPanel("Material", material_, Qt::RightDockWidgetArea);
+    QDockWidget* last = material;
+    for (QDockWidget* dock : {addPanel("Light", lights_, Qt::RightDockWidgetArea),
+                              addPanel("Compare", compare_, Qt::RightDockWidgetArea),
+                              addPanel("Picture", look_, Qt::RightDockWidgetArea),
+                              addPanel("Inspect", inspect_, Qt::RightDockWidgetArea),
+                              addPanel("Timing", timing_, Qt::RightDockWidgetArea)}) {
+        tabifyDockWidget(last, dock);
+        last = dock;
+    }
+    setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+    material->raise();
 }
 
 QDockWidget* MainWindow::addPanel(const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
@@ -108,7 +147,11 @@ void MainWindow::makeMenus() {
     edit->addActions({undo, redo});
 
     const std::array view{Action{"view.resetCamera", "&Reset camera", QKeySequence("Home"),
-                                 "Back to where the scene is seen from first", &MainWindow::resetCamera}};
+                                 "Back to where the scene is seen from first", &MainWindow::resetCamera},
+                          Action{"view.compare", "&Compare", QKeySequence("F2"),
+                                 "A alone, A and B divided, their difference", &MainWindow::cycleCompare},
+                          Action{"view.reloadShaders", "Reload s&haders", QKeySequence("F6"),
+                                 "Compile changed shaders (in a developer build)", &MainWindow::reloadShaders}};
     addActions("&View", view);
     auto* viewMenu = menuBar()->findChild<QMenu*>("menu.view");
     QAction* dark = viewMenu->addAction("&Dark");
@@ -192,7 +235,21 @@ void MainWindow::savePicture() {
 }
 
 void MainWindow::resetCamera() {
-    picture_->setCamera(drawn_.cameras.at(0));
+    picture_->setCamera(firstCamera());
+}
+
+void MainWindow::cycleCompare() {
+    compare_->cycle();
+}
+
+void MainWindow::reloadShaders() {
+    try {
+        loop_->reloadShaders();
+        statusBar()->showMessage("The shaders are as their files are now", 5000);
+        picture_->wake();
+    } catch (const std::exception& error) {
+        complain(QString::fromUtf8(error.what()));
+    }
 }
 
 void MainWindow::setDark(bool dark) {
@@ -201,10 +258,19 @@ void MainWindow::setDark(bool dark) {
     QApplication::setPalette(dark ? darkPalette() : QStyleFactory::create("Fusion")->standardPalette());
 }
 
-void MainWindow::pick(QPointF) {}
-
 void MainWindow::showShortcuts() {
-    QMessageBox::information(this, "Shortcuts", "");
+    QString rows;
+    for (const auto& [keys, what] : mouse) {
+        rows += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>").arg(keys, what);
+    }
+    for (const QAction* action : findChildren<QAction*>()) {
+        if (!action->shortcut().isEmpty()) {
+            rows += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+                        .arg(action->shortcut().toString().toHtmlEscaped(),
+                             QString(action->text()).remove('&').toHtmlEscaped());
+        }
+    }
+    QMessageBox::information(this, "Mouse and keys", "<table>" + rows + "</table>");
 }
 
 void MainWindow::keyPressEvent(QKeyEvent* event) {

@@ -31,7 +31,10 @@ int runWindow(const RunSettings& settings) {
     QApplication::setOrganizationName("nacre");
     MainWindow window({settings.input, settings.material, settings.device});
     window.show();
-    QTimer::singleShot(0, &window, [&] { window.openFile(QString::fromStdString(settings.input.string())); });
+    QTimer::singleShot(0, &window, [&] {
+        window.openFile(QString::fromStdString(settings.input.string()));
+        window.offerRecovered();
+    });
     const int result = QApplication::exec();
     if (!window.device().validationMessages().empty()) {
         throw std::runtime_error("the validation layer has " +

@@ -1,0 +1,257 @@
+#include "view/window/material_panel.hpp"
+
+#include "nacre/files.hpp"
+#include "nacre/layering.hpp"
+#include "nacre/presets.hpp"
+#include "view/window/mixing_dialog.hpp"
+
+#include <QColorDialog>
+#include <QFileDialog>
+#include <QGroupBox>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::view {
+namespace {
+
+constexpr const char* materialFilter = "Materials (*.json);;All files (*)";
+constexpr const char* noPreset = "Choose a preset …";
+
+QGroupBox* group(const QString& title, QLayout* layout) {
+    auto* box = new QGroupBox(title);
+    box->setLayout(layout);
+    return box;
+}
+
+QColor toColor(const Rgb& linear) {
+    const auto encoded = [](double value) { return static_cast<int>(std::lround(255 * std::pow(value, 1 / 2.2))); };
+    return {encoded(linear[0]), encoded(linear[1]), encoded(linear[2])};
+}
+
+Rgb toLinear(const QColor& color) {
+    return {std::pow(color.redF(), 2.2), std::pow(color.greenF(), 2.2), std::pow(color.blueF(), 2.2)};
+}
+
+} // namespace
+
+MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
+    : QWidget(parent),
+      document_(document),
+      materials_(new QComboBox),
+      presets_(new QComboBox),
+      source_(new QLabel),
+      layers_(new LayerList(document)),
+      layer_(new ParameterPanel<Layer>(layerParameters())),
+      parameters_(new ParameterPanel<Material>(materialParameters())),
+      color_(new QPushButton),
+      albedoUse_(new QComboBox),
+      radius_(new QLabel),
+      plots_{new ProfilePlot(PlotKind::Profile), new ProfilePlot(PlotKind::EdgeResponse),
+             new ProfilePlot(PlotKind::Slab)} {
+    auto* layout = new QVBoxLayout(this);
+    makeSource();
+    auto* source = new QFormLayout;
+    source->addRow("Material", materials_);
+    source->addRow("Preset", presets_);
+    source->addRow(source_);
+    auto* make = new QHBoxLayout;
+    const auto addMaker = [&](const QString& name, const QString& text, const QString& toolTip, auto run) {
+        auto* button = new QPushButton(text);
+        button->setObjectName(name);
+        button->setToolTip(toolTip);
+        connect(button, &QPushButton::clicked, this, run);
+        make->addWidget(button);
+    };
+    addMaker("material.skin", "Skin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
+    addMaker("material.meanFreePath", "Mean free path …", "Layers of a medium by its colour and mean free path",
+             &MaterialPanel::makeMeanFreePath);
+    addMaker("material.load", "Load …", "Read a material file", [this] {
+        const QString file = QFileDialog::getOpenFileName(this, "Load a material", {}, materialFilter);
+        if (!file.isEmpty()) {
+            load(file);
+        }
+    });
+    addMaker("material.save", "Save …", "Write this material to a file", [this] {
+        const QString name = QString::fromStdString(material().name) + ".json";
+        const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, materialFilter);
+        if (!file.isEmpty()) {
+            save(file);
+        }
+    });
+    source->addRow(make);
+    layout->addLayout(source);
+
+    auto* layers = new QVBoxLayout;
+    layers->addWidget(layers_);
+    layers->addWidget(layer_);
+    layout->addWidget(group("Layers", layers));
+    auto* use = new QVBoxLayout;
+    use->addWidget(parameters_);
+    auto* form = new QFormLayout;
+    form->addRow("Albedo", color_);
+    form->addRow("Albedo use", albedoUse_);
+    form->addRow("Radius", radius_);
+    use->addLayout(form);
+    layout->addWidget(group("Use", use));
+    makeColor();
+    for (ProfilePlot* plot : plots_) {
+        layout->addWidget(plot);
+    }
+    layout->addStretch();
+
+    layer_->onChange = [this](const Parameter<Layer>& parameter, double value) {
+        const std::size_t index = layers_->layer();
+        document_.edit(parameter.label, QString("%1 %2").arg(parameter.name).arg(index), [&](EditedScene& scene) {
+            std::vector<Layer>& all = layersOf(scene.materials[document_.material()]);
+            if (index < all.size()) {
+                parameter.set(all[index], value);
+            }
+        });
+    };
+    parameters_->onChange = [this](const Parameter<Material>& parameter, double value) {
+        document_.edit(parameter.label, parameter.name, [&](EditedScene& scene) {
+            parameter.set(scene.materials[document_.material()].material, value);
+            applyToSurfaces(scene, document_.material());
+        });
+    };
+    layer_->onFinish = parameters_->onFinish = [this] { document_.endEdit(); };
+    connect(layers_, &LayerList::selected, this, &MaterialPanel::refresh);
+}
+
+void MaterialPanel::makeSource() {
+    materials_->setObjectName("material");
+    materials_->setToolTip("The scene's materials; a click on a body chooses its own");
+    presets_->setObjectName("material.preset");
+    presets_->setToolTip("Put a preset in this material's place");
+    presets_->addItem(noPreset);
+    for (const Material& preset : presets()) {
+        presets_->addItem(QString::fromStdString(preset.name));
+        presets_->setItemData(presets_->count() - 1, QString::fromStdString(preset.description), Qt::ToolTipRole);
+    }
+    source_->setWordWrap(true);
+    source_->setObjectName("material.source");
+    connect(materials_, &QComboBox::activated, this, [this](int row) { document_.select(std::size_t(row)); });
+    connect(presets_, &QComboBox::activated, this, &MaterialPanel::choosePreset);
+}
+
+void MaterialPanel::makeColor() {
+    color_->setObjectName("material.albedo");
+    color_->setToolTip("Diffuse albedo of surfaces that have no texture for it");
+    connect(color_, &QPushButton::clicked, this, &MaterialPanel::chooseColor);
+    albedoUse_->setObjectName("material.albedoUse");
+    albedoUse_->addItems({"After scattering", "Root before and after"});
+    albedoUse_->setToolTip("Where the albedo is applied: after scattering, or its square root before and after");
+    connect(albedoUse_, &QComboBox::activated, this, [this](int row) {
+        document_.edit("albedo use", {}, [&](EditedScene& scene) {
+            scene.materials[document_.material()].material.albedoUse =
+                row == 0 ? AlbedoUse::Post : AlbedoUse::PreAndPost;
+        });
+    });
+    radius_->setObjectName("material.radius");
+    radius_->setToolTip("Root mean square distance that light travels, red, green and blue");
+}
+
+const Material& MaterialPanel::material() const {
+    return document_.edited().materials[document_.material()].material;
+}
+
+void MaterialPanel::setScale(double pixelsPerMillimeter) {
+    pixelsPerMillimeter_ = pixelsPerMillimeter;
+    refresh();
+}
+
+void MaterialPanel::refresh() {
+    if (document_.edited().materials.empty()) {
+        return;
+    }
+    const Material& shown = material();
+    const QSignalBlocker quiet(materials_);
+    materials_->clear();
+    for (const EditedMaterial& each : document_.edited().materials) {
+        materials_->addItem(QString::fromStdString(each.material.name));
+    }
+    materials_->setCurrentIndex(static_cast<int>(document_.material()));
+    const Material* preset = findPreset(shown.name);
+    presets_->setCurrentIndex(preset != nullptr && *preset == shown ? static_cast<int>(preset - presets().data()) + 1
+                                                                    : 0);
+    source_->setText(QString::fromStdString(shown.description));
+    EditedMaterial copy = document_.edited().materials[document_.material()];
+    const std::vector<Layer>& layers = layersOf(copy);
+    layer_->show(layers[std::min(layers_->layer(), layers.size() - 1)]);
+    parameters_->show(shown);
+    const QColor color = toColor(shown.albedo);
+    color_->setStyleSheet(QString("background-color: %1; color: %2")
+                              .arg(color.name(), color.lightnessF() > 0.5f ? "black" : "white"));
+    color_->setText(color.name());
+    albedoUse_->setCurrentIndex(shown.albedoUse == AlbedoUse::Post ? 0 : 1);
+    const Material drawn = document_.edited().materials[document_.material()].drawn();
+    const std::unique_ptr<Profile> profile = makeProfile(drawn);
+    QStringList radii;
+    for (int channel = 0; channel < 3; ++channel) {
+        radii << QString::number(profile->rmsRadius(channel), 'g', 3);
+    }
+    const double widest = std::max({profile->rmsRadius(0), profile->rmsRadius(1), profile->rmsRadius(2)});
+    radius_->setText(radii.join(" / ") + " mm; " + QString::number(widest * pixelsPerMillimeter_, 'g', 3) +
+                     " px on the screen");
+    for (ProfilePlot* plot : plots_) {
+        plot->show(drawn, pixelsPerMillimeter_);
+    }
+}
+
+void MaterialPanel::makeFrom(const QString& text, const std::function<Material()>& make) {
+    try {
+        const Material made = make();
+        if (const std::string fault = findFault(made); !fault.empty()) {
+            throw std::runtime_error(fault);
+        }
+        document_.edit(text, {}, [&](EditedScene& scene) { replaceMaterial(scene, document_.material(), made); });
+    } catch (const std::exception& error) {
+        Q_EMIT failed(QString::fromUtf8(error.what()));
+    }
+}
+
+void MaterialPanel::choosePreset(int row) {
+    if (row > 0) {
+        const Material& preset = presets()[static_cast<std::size_t>(row - 1)];
+        makeFrom("preset " + QString::fromStdString(preset.name), [&] { return preset; });
+    }
+}
+
+void MaterialPanel::load(const QString& file) {
+    makeFrom("load material", [&] { return loadMaterial(file.toStdString()); });
+}
+
+void MaterialPanel::save(const QString& file) const {
+    try {
+        saveMaterial(document_.edited().materials[document_.material()].drawn(), file.toStdString());
+    } catch (const std::exception& error) {
+        Q_EMIT const_cast<MaterialPanel*>(this)->failed(QString::fromUtf8(error.what()));
+    }
+}
+
+void MaterialPanel::chooseColor() {
+    const QColor color = QColorDialog::getColor(toColor(material().albedo), this, "Albedo");
+    if (color.isValid()) {
+        document_.edit("albedo", {}, [&](EditedScene& scene) {
+            scene.materials[document_.material()].material.albedo = toLinear(color);
+            applyToSurfaces(scene, document_.material());
+        });
+    }
+}
+
+void MaterialPanel::makeSkin() {
+    if (const std::optional<SkinRecipe> recipe = askForSkin(this)) {
+        makeFrom("skin", [&] { return mixSkin(*recipe); });
+    }
+}
+
+void MaterialPanel::makeMeanFreePath() {
+    if (const std::optional<MediumRecipe> recipe = askForMedium(this)) {
+        makeFrom("mean free path", [&] { return mixMedium(*recipe); });
+    }
+}
+
+} // namespace nacre::view

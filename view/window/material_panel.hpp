@@ -1,0 +1,56 @@
+// A material: where it comes from, its layers, how the effect uses it, and what that means.
+#pragma once
+
+#include "view/window/document.hpp"
+#include "view/window/layer_list.hpp"
+#include "view/window/parameter_panel.hpp"
+#include "view/window/profile_plot.hpp"
+
+#include <QComboBox>
+#include <QPushButton>
+
+#include <array>
+
+namespace nacre::view {
+
+class MaterialPanel : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit MaterialPanel(Document& document, QWidget* parent = nullptr);
+
+    /// Where the plots look at the bank's mixture; the radius is also told in pixels of this scale.
+    void setScale(double pixelsPerMillimeter);
+    /// Loads or saves the material that is shown. Throws FileError.
+    void load(const QString& file);
+    void save(const QString& file) const;
+
+Q_SIGNALS:
+    void failed(QString sentence);
+
+private:
+    void makeSource();
+    void makeColor();
+    void refresh();
+    void choosePreset(int row);
+    void makeFrom(const QString& text, const std::function<Material()>& make);
+    void chooseColor();
+    void makeSkin();
+    void makeMeanFreePath();
+    const Material& material() const;
+
+    Document& document_;
+    QComboBox* materials_;
+    QComboBox* presets_;
+    QLabel* source_;
+    LayerList* layers_;
+    ParameterPanel<Layer>* layer_;
+    ParameterPanel<Material>* parameters_;
+    QPushButton* color_;
+    QComboBox* albedoUse_;
+    QLabel* radius_;
+    std::array<ProfilePlot*, 3> plots_;
+    double pixelsPerMillimeter_ = 4;
+};
+
+} // namespace nacre::view
