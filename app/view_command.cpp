@@ -1,6 +1,7 @@
 // `nacre view`: a window to build materials in.
 #include "app/command.hpp"
-#include "app/material_source.hpp"
+#include "app/render_scene.hpp"
+#include "view/loop/headless.hpp"
 
 #ifdef NACRE_HAS_WINDOW
 #include "view/run_window.hpp"
@@ -8,29 +9,117 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
+#include <iostream>
+
 namespace nacre::app {
 
 namespace {
 
-struct ViewOptions {
-    std::filesystem::path input;
-    std::string material;
-    std::string device;
-    bool validation = false;
+constexpr std::uint32_t mostFrames = 100'000;
+
+struct ViewOptions : SceneOptions {
+    renderer::DeviceSettings device;
+    std::filesystem::path script;
+    bool headless = false;
+    std::string frames;
+    std::uint32_t turntable = 0; ///< 0: none
+    std::uint32_t pictureSamples = 16;
+    std::filesystem::path output;
+    std::uint32_t shadowMapSize = 2048;
 };
 
+std::uint32_t parseFrame(const std::string& text) {
+    std::uint32_t value = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault != std::errc() || end != text.data() + text.size() || value > mostFrames) {
+        throw UsageError("--frames '" + text + "' is no number from 0 to " + std::to_string(mostFrames));
+    }
+    return value;
+}
+
+void failOnMessages(const renderer::Device& device) {
+    const std::vector<std::string>& messages = device.validationMessages();
+    if (!messages.empty()) {
+        throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
+                                 " messages, the first: " + messages.front());
+    }
+}
+
+void runHeadless(const ViewOptions& options) {
+    nacre::view::HeadlessSettings settings;
+    settings.width = options.width;
+    settings.height = options.height;
+    settings.shadowMapSize = options.shadowMapSize;
+    settings.frames = options.frames.empty() ? settings.frames : parseFrame(options.frames);
+    requireRange(settings.frames, 2, mostFrames, "--frames");
+    renderer::Device device(options.device);
+    scene::Scene scene = makeScene(options);
+    scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
+    nacre::view::printHeadless(std::cout, device, scene, settings);
+    failOnMessages(device);
+}
+
+/// "A:B", both of them drawn; without it all frames.
+void parseRange(const std::string& text, nacre::view::TurntableSettings& settings) {
+    settings.last = settings.count - 1;
+    if (text.empty()) {
+        return;
+    }
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) {
+        throw UsageError("--frames '" + text + "' is not FIRST:LAST");
+    }
+    settings.first = parseFrame(text.substr(0, colon));
+    settings.last = parseFrame(text.substr(colon + 1));
+    if (settings.first > settings.last || settings.last >= settings.count) {
+        throw UsageError("--frames " + text + " is no range of the frames 0 to " + std::to_string(settings.count - 1));
+    }
+}
+
+void runTurntable(const ViewOptions& options) {
+    nacre::view::TurntableSettings settings;
+    settings.count = options.turntable;
+    settings.width = options.width;
+    settings.height = options.height;
+    settings.shadowMapSize = options.shadowMapSize;
+    settings.samples = options.pictureSamples;
+    settings.folder = options.output;
+    if (settings.folder.empty()) {
+        throw UsageError("--turntable needs a folder: -o DIR");
+    }
+    requireRange(settings.count, 1, mostFrames, "--turntable");
+    parseRange(options.frames, settings);
+    renderer::Device device(options.device);
+    scene::Scene scene = makeScene(options);
+    scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
+    nacre::view::drawTurntable(device, scene, settings);
+    failOnMessages(device);
+}
+
 void view(const ViewOptions& options) {
+    requireRange(options.shadowMapSize, 16, 16384, "--shadow-map-size");
+    requireRange(options.pictureSamples, 1, 1024, "--picture-samples");
+    if (options.turntable > 0) {
+        runTurntable(options);
+        return;
+    }
+    if (options.headless) {
+        runHeadless(options);
+        return;
+    }
 #ifdef NACRE_HAS_WINDOW
     nacre::view::RunSettings settings;
     settings.input = options.input;
-    if (!options.material.empty()) {
-        settings.material = readMaterial(options.material);
-    }
-    settings.device.name = options.device;
-    settings.device.validation = options.validation;
+    settings.load = [&options] {
+        scene::Scene scene = makeScene(options);
+        scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
+        return scene;
+    };
+    settings.device = options.device;
+    settings.script = options.script;
     nacre::view::runWindow(settings);
 #else
-    static_cast<void>(options);
     throw std::runtime_error("this build has no window, because Qt 6 was not there when it was configured (Debian: "
                              "qt6-base-dev); --headless draws without one");
 #endif
@@ -41,14 +130,28 @@ void view(const ViewOptions& options) {
 void addView(CLI::App& app) {
     CLI::App* command = app.add_subcommand("view", "Open a window: build a material, see its light change");
     const auto options = std::make_shared<ViewOptions>();
-    command->add_option("SCENE", options->input, "A scene file or a model; without it the built-in gallery")
-        ->type_name("");
-    command->add_option("--material", options->material, "Give every body this material: a preset or a material file")
-        ->type_name("NAME|FILE");
-    command->add_option("--device", options->device, "Number or part of the name, see `nacre devices`")
-        ->type_name("DEVICE");
-    command->add_flag("--validation", options->validation, "Fail where the Vulkan validation layer complains");
-    command->callback([options] { view(*options); });
+    const auto parser = std::make_shared<SceneOptionParser>();
+    parser->addScene(*command);
+    parser->addPicture(*command, "not of the window; ");
+    parser->addLight(*command);
+    parser->addCamera(*command);
+    const auto add = [&](const char* name, auto& value, const char* description, const char* type) {
+        command->add_option(name, value, description)->type_name(type)->allow_extra_args(false);
+    };
+    add("--script", options->script, "Drive the window by the steps of this file, then end", "FILE.json");
+    command->add_flag("--headless", options->headless, "No window: draw frames and say what they take");
+    add("--frames", options->frames, "Of --headless how many, default 120; of --turntable which: FIRST:LAST", "N|A:B");
+    add("--turntable", options->turntable, "No window: N pictures from around the scene", "N");
+    add("--picture-samples", options->pictureSamples, "Samples a pixel of a turntable's pictures; default 16", "N");
+    add("-o,--output", options->output, "The folder for a turntable's pictures", "DIR");
+    add("--shadow-map-size", options->shadowMapSize, "Texels a side, without a window; default 2048", "N");
+    add("--device", options->device.name, "Number or part of the name, see `nacre devices`", "DEVICE");
+    command->add_flag("--validation", options->device.validation, "Fail where the Vulkan validation layer complains");
+    command->callback([options, parser] {
+        ViewOptions all = *options;
+        static_cast<SceneOptions&>(all) = parser->finish();
+        view(all);
+    });
 }
 
 } // namespace nacre::app

@@ -94,12 +94,6 @@ void Accumulation::setGiven(const nacre::Image& image, vk::Extent2D extent) {
     }
 }
 
-void Accumulation::restart() {
-    for (Side& side : sides_) {
-        side.samples = 0;
-    }
-}
-
 void Accumulation::recordSample(const vk::raii::CommandBuffer& commandBuffer, std::size_t pass, std::uint32_t side,
                                 vk::Extent2D extent, const SampleLook& look, const EffectUse& use) {
     Side& target = sides_[side];

@@ -75,8 +75,8 @@ public:
     /// What ShownImage::Given shows, R G B, resampled to `extent`. The device must have finished with all frames.
     void setGiven(const nacre::Image& image, vk::Extent2D extent);
 
-    /// Forgets what is on the sides.
-    void restart();
+    /// Forgets what is on a side.
+    void restart(std::uint32_t side) { sides_[side].samples = 0; }
     std::uint32_t samples(std::uint32_t side) const { return sides_[side].samples; }
 
     /// Adds the images of pass `pass` to a side; a side that had another size begins anew.

@@ -1,17 +1,18 @@
 // The viewer as the command starts it.
 #pragma once
 
-#include "nacre/material.hpp"
 #include "renderer/graphics_device.hpp"
+#include "scene/scene.hpp"
 
 #include <filesystem>
-#include <optional>
+#include <functional>
 
 namespace nacre::view {
 
 struct RunSettings {
     std::filesystem::path input; ///< empty: the gallery
-    std::optional<Material> material;
+    /// Loads it, with what else the command line asks for.
+    std::function<scene::Scene()> load;
     renderer::DeviceSettings device;
     std::filesystem::path script; ///< empty: none
 };

@@ -96,9 +96,9 @@ renderer::RenderSettings PictureLoop::renderSettings(vk::Extent2D extent) const 
 }
 
 std::unique_ptr<PictureLoop::Sized> PictureLoop::makeFrame(vk::Extent2D extent) {
-    renderer::FrameLimits limits{.framesInFlight = settings_.framesInFlight, .lights = settings_.lights};
-    // Every light may be a point light once it is edited.
-    limits.shadowLayers = 6 * std::min(settings_.lights, 4u) + settings_.lights;
+    const renderer::FrameLimits limits{.framesInFlight = settings_.framesInFlight,
+                                       .lights = settings_.lights,
+                                       .shadowLayers = settings_.shadowLayers};
     return std::make_unique<Sized>(
         Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
 }
@@ -164,7 +164,9 @@ template <typename Action> void PictureLoop::forEachFrame(const Action& action) 
 }
 
 void PictureLoop::restart() {
-    accumulation_->restart();
+    for (std::uint32_t side = 0; side < Accumulation::sideCount; ++side) {
+        accumulation_->restart(side);
+    }
 }
 
 void PictureLoop::setSurface(vk::SurfaceKHR surface, std::function<vk::Extent2D()> windowExtent) {
@@ -234,7 +236,7 @@ void PictureLoop::setEnvironment(float intensity, float rotation) {
 
 void PictureLoop::setSide(std::uint32_t side, const SideSettings& settings) {
     sides_[side] = settings;
-    restart();
+    accumulation_->restart(side);
 }
 
 void PictureLoop::setShown(const renderer::ShowLook& look) {
@@ -246,7 +248,11 @@ void PictureLoop::setGiven(const Image& image) {
     wait();
     given_ = image;
     accumulation_->setGiven(given_, full_->extent);
-    restart();
+    for (std::uint32_t side = 0; side < Accumulation::sideCount; ++side) {
+        if (sides_[side].look.image == ShownImage::Given) {
+            accumulation_->restart(side);
+        }
+    }
 }
 
 void PictureLoop::setMoving(bool moving) {
@@ -299,6 +305,14 @@ bool PictureLoop::finish(Slot& slot) {
     return true;
 }
 
+bool PictureLoop::finishAll() {
+    bool all = true;
+    for (Slot& slot : slots_) {
+        all = finish(slot) && all;
+    }
+    return all;
+}
+
 void PictureLoop::wait() {
     translateErrors([&] {
         for (Slot& slot : slots_) {
@@ -337,7 +351,7 @@ Step PictureLoop::step() {
         }
         const std::optional<std::uint32_t> side = sideToDraw();
         if (!side && !(showAgain_ && swapchain_)) {
-            return Step::Converged;
+            return finishAll() ? Step::Converged : Step::Busy;
         }
         if (!prepareWindow()) {
             return Step::Hidden;

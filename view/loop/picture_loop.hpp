@@ -30,7 +30,8 @@ struct LoopSettings {
     bool shadowMapsEveryFrame = false;   ///< as RenderSettings has it
     bool restartEveryFrame = false;      ///< every frame is a picture of its own, as if something always moved
     double tolerableMilliseconds = 50;   ///< of a frame while something moves; slower devices then draw fewer pixels
-    std::uint32_t lights = 16;           ///< most lights that can be set
+    std::uint32_t lights = 0;            ///< most lights that can be set; never less than the scene's
+    std::uint32_t shadowLayers = 0;      ///< likewise, as FrameLimits has it
 };
 
 /// What a step did.
@@ -118,6 +119,7 @@ private:
     template <typename Action> void forEachFrame(const Action& action);
     void restart();
     bool finish(Slot& slot);
+    bool finishAll();
     std::optional<std::uint32_t> sideToDraw() const;
     bool prepareWindow();
     std::optional<renderer::Swapchain::Acquired> acquire(Slot& slot);

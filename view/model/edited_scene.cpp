@@ -22,21 +22,24 @@ template <typename Change> std::set<std::size_t> renumbered(const std::set<std::
 
 Material EditedMaterial::drawn() const {
     Material result = material;
-    if (hidden.empty() || hidden.size() >= material.layers.size()) {
-        return result;
-    }
-    result.layers.clear();
-    for (std::size_t i = 0; i < material.layers.size(); ++i) {
-        if (!hidden.contains(i)) {
-            result.layers.push_back(material.layers[i]);
+    if (!hidden.empty() && hidden.size() < material.layers.size()) {
+        result.slabs.clear(); // which are all of the layers
+        result.layers.clear();
+        for (std::size_t i = 0; i < material.layers.size(); ++i) {
+            if (!hidden.contains(i)) {
+                result.layers.push_back(material.layers[i]);
+            }
         }
     }
-    // A channel that only hidden layers have would have no light; it then leaves where it entered.
+    if (result.layers.empty() || result.layers.size() == maxLayers) {
+        return result;
+    }
     for (std::size_t channel = 0; channel < 3; ++channel) {
         if (std::ranges::all_of(result.layers, [&](const Layer& layer) { return layer.weight[channel] <= 0; })) {
             Layer direct;
             direct.weight[channel] = 1;
             result.layers.push_back(direct);
+            result.slabs.clear();
         }
     }
     return result;

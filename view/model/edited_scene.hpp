@@ -13,7 +13,8 @@ struct EditedMaterial {
     Material material;
     std::set<std::size_t> hidden; ///< layers that are kept but not drawn
 
-    /// The material without its hidden layers. With all of them hidden it is drawn as if none were.
+    /// The material without its hidden layers. With all of them hidden it is drawn as if none were. Light of a channel
+    /// that no layer has leaves where it enters.
     Material drawn() const;
     bool operator==(const EditedMaterial&) const = default;
 };

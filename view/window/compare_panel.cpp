@@ -175,7 +175,7 @@ void ComparePanel::outdate() {
     if (reference_) {
         reference_.reset();
         poll_.stop();
-        progress_->setText("The reference is of what was seen before; start it again for what is seen now.");
+        progress_->setText("The reference was of what was seen before. It begins again when the picture stands still.");
     }
 }
 
@@ -203,6 +203,10 @@ void ComparePanel::poll() {
 }
 
 void ComparePanel::measure() {
+    if (isComparing() && isReference() && !reference_) {
+        startReference(); // the picture stands still again
+        return;
+    }
     if (!isComparing() || !readSide) {
         error_->clear();
         return;

@@ -1,9 +1,5 @@
 #include "view/window/document.hpp"
 
-#include "scene/gallery/gallery.hpp"
-#include "scene/import.hpp"
-#include "scene/surface_material.hpp"
-
 #include <QFileSystemWatcher>
 
 #include <algorithm>
@@ -49,14 +45,6 @@ private:
 
 Document::Document(QObject* parent) : QObject(parent), history_(this), watcher_(new QFileSystemWatcher(this)) {
     connect(watcher_, &QFileSystemWatcher::fileChanged, this, &Document::changedOnDisk);
-}
-
-void Document::open(const std::filesystem::path& file, const std::optional<Material>& material) {
-    scene::Scene loaded = file.empty() ? scene::makeGallery() : scene::load(file);
-    if (material) {
-        scene::assignMaterial(loaded, *material);
-    }
-    openScene(std::move(loaded), file);
 }
 
 void Document::openScene(scene::Scene scene, const std::filesystem::path& file) {

@@ -20,9 +20,7 @@ class Document : public QObject {
 public:
     explicit Document(QObject* parent = nullptr);
 
-    /// Opens a scene file or a model; an empty name opens the gallery. `material`, if there is one, replaces the
-    /// scene's materials. Throws what the importers throw, and then keeps what was open.
-    void open(const std::filesystem::path& file, const std::optional<Material>& material = std::nullopt);
+    /// Takes a scene that was read from `file`; an empty name is the gallery.
     void openScene(scene::Scene scene, const std::filesystem::path& file);
 
     /// The scene as its file has it; materials are there for all that `edited` has.

@@ -1,7 +1,9 @@
 #include "view/window/main_window.hpp"
 
+#include "nacre/files.hpp"
 #include "renderer/vulkan/open_device.hpp"
-#include "scene/scene.hpp"
+#include "scene/gallery/gallery.hpp"
+#include "scene/import.hpp"
 #include "view/window/compare_panel.hpp"
 #include "view/window/inspect_panel.hpp"
 #include "view/window/look_panel.hpp"
@@ -25,7 +27,10 @@ namespace {
 
 constexpr std::uint32_t softwareShadowMapSize = 512;
 constexpr std::uint32_t softwareSamples = 16;
+constexpr std::uint32_t mostLights = 16;
+constexpr std::uint32_t mostShadowLayers = 12; // a point light has six
 constexpr float composedAspect = 16.0f / 9; // what scenes' cameras are made for
+constexpr int reloadMilliseconds = 300;     // after a change, until its writer has finished
 constexpr int recoveryMilliseconds = 500;   // after an edit, until it is safe
 
 bool sameEffect(const renderer::EffectSettings& one, const renderer::EffectSettings& other) {
@@ -63,7 +68,7 @@ std::vector<std::string> surfaceExtensions() {
     return {};
 }
 
-MainWindow::MainWindow(const WindowSettings& settings) : settings_(settings), device_(windowDevice(settings.device)) {
+MainWindow::MainWindow(const renderer::DeviceSettings& device) : device_(windowDevice(device)) {
     setObjectName("window");
     setAcceptDrops(true);
     const bool hasSurfaces = !surfaceExtensions().empty();
@@ -86,7 +91,7 @@ MainWindow::MainWindow(const WindowSettings& settings) : settings_(settings), de
 
     connect(&document_, &Document::opened, this, &MainWindow::sceneOpened);
     connect(&document_, &Document::changed, this, &MainWindow::applyScene);
-    connect(&document_, &Document::changedOnDisk, this, &MainWindow::reload);
+    connect(&document_, &Document::changedOnDisk, this, &MainWindow::changedOnDisk);
     connect(picture_, &PictureWindow::stepped, this, &MainWindow::showStatus);
     connect(picture_, &PictureWindow::failed, this, &MainWindow::complain);
     connect(picture_, &PictureWindow::clicked, this, &MainWindow::pick);
@@ -98,6 +103,10 @@ MainWindow::MainWindow(const WindowSettings& settings) : settings_(settings), de
     recoveryTimer_.setSingleShot(true);
     connect(&recoveryTimer_, &QTimer::timeout, this, [this] {
         try {
+            if (document_.history().isClean()) {
+                recovery_->remove();
+                return;
+            }
             recovery_->save(QString::fromStdString(document_.file().string()), document_.edited());
         } catch (const std::exception& error) {
             complain(QString::fromUtf8(error.what()));
@@ -121,28 +130,28 @@ void MainWindow::restoreWindow() {
     setDark(stored.value("dark", true).toBool());
 }
 
-void MainWindow::openPath(const std::filesystem::path& file, const std::optional<Material>& material) {
-    statusBar()->showMessage("Opening " + (file.empty() ? QString("the gallery") : QString::fromStdString(file)) +
-                             " …");
+void MainWindow::openPath(const QString& file, const std::function<scene::Scene()>& load) {
+    statusBar()->showMessage("Opening " + (file.isEmpty() ? QString("the gallery") : file) + " …");
     QApplication::setOverrideCursor(Qt::WaitCursor);
     QApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
     opening_ = true;
-    try {
-        document_.open(file, material);
-    } catch (...) {
+    const auto end = [this] {
         opening_ = false;
         QApplication::restoreOverrideCursor();
         statusBar()->clearMessage();
+    };
+    try {
+        document_.openScene(load(), file.toStdString());
+    } catch (...) {
+        end();
         throw;
     }
-    opening_ = false;
-    QApplication::restoreOverrideCursor();
-    statusBar()->clearMessage();
+    end();
 }
 
-bool MainWindow::openFile(const QString& file) {
+bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scene()>& load) {
     try {
-        openPath(file.toStdString(), document_.scene().meshes.empty() ? settings_.material : std::nullopt);
+        openPath(file, load);
     } catch (const std::exception& error) {
         complain(QString::fromUtf8(error.what()));
         return false;
@@ -150,10 +159,15 @@ bool MainWindow::openFile(const QString& file) {
     if (!file.isEmpty()) {
         rememberRecent(file);
     }
-    for (const std::string& note : document_.scene().notes) {
-        statusBar()->showMessage(QString::fromStdString(note), 10000);
+    if (!document_.scene().notes.empty()) {
+        constexpr int shownMilliseconds = 10'000;
+        statusBar()->showMessage(QString::fromStdString(document_.scene().notes.front()), shownMilliseconds);
     }
     return true;
+}
+
+bool MainWindow::openFile(const QString& file) {
+    return openLoaded(file, [&] { return file.isEmpty() ? scene::makeGallery() : scene::load(file.toStdString()); });
 }
 
 void MainWindow::makeLoop() {
@@ -165,6 +179,8 @@ void MainWindow::makeLoop() {
         settings.shadowMapSize = softwareShadowMapSize;
         settings.stillSamples = softwareSamples;
     }
+    settings.lights = mostLights;
+    settings.shadowLayers = mostShadowLayers;
     loop_ = std::make_unique<PictureLoop>(device_, drawn_, settings);
     sides_ = {};
     for (std::uint32_t side = 0; side < renderer::Accumulation::sideCount; ++side) {
@@ -205,6 +221,17 @@ void MainWindow::applyScene() {
         }
     } catch (const std::exception& error) {
         complain(QString::fromUtf8(error.what()));
+        // What cannot be drawn is taken back, once the command that did it is through.
+        QTimer::singleShot(0, this, [this] { document_.history().undo(); });
+    }
+}
+
+/// A scene without edits follows its file. Edits are not thrown away without being asked.
+void MainWindow::changedOnDisk() {
+    if (document_.history().isClean()) {
+        QTimer::singleShot(reloadMilliseconds, this, &MainWindow::reload);
+    } else {
+        note(document_.name() + " has changed on disk; F5 reads it again and forgets what was edited");
     }
 }
 
@@ -275,8 +302,11 @@ bool MainWindow::drawUntilStill(int milliseconds) {
         loop_->setMoving(false);
     }
     picture_->wake();
+    QTimer heartbeat; // so that a window that draws nothing does not wait for ever
+    constexpr int beatMilliseconds = 50;
+    heartbeat.start(beatMilliseconds);
     while (!deadline.hasExpired()) {
-        QApplication::processEvents(QEventLoop::WaitForMoreEvents | QEventLoop::AllEvents, 20);
+        QApplication::processEvents(QEventLoop::WaitForMoreEvents);
         if (loop_ && loop_->isConverged()) {
             loop_->wait();
             showStatus();
@@ -284,6 +314,10 @@ bool MainWindow::drawUntilStill(int milliseconds) {
         }
     }
     return false;
+}
+
+void MainWindow::note(const QString& sentence) {
+    statusBar()->showMessage(sentence);
 }
 
 void MainWindow::complain(const QString& sentence) {
@@ -348,7 +382,7 @@ void MainWindow::offerRecovered() {
     const std::optional<Recovered> found = Recovery::take();
     if (!found || quiet_ ||
         QMessageBox::question(this, "Nacre",
-                              "The viewer ended without being closed. Go on with the materials that were edited then?") !=
+                              "Materials were edited the last time and not saved. Go on with them?") !=
             QMessageBox::Yes) {
         return;
     }
@@ -368,6 +402,9 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         QSettings().setValue("geometry", saveGeometry());
     }
     compare_->stop();
+    if (quiet_ || document_.history().isClean()) {
+        recovery_->remove();
+    }
     event->accept();
 }
 

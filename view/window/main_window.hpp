@@ -24,18 +24,11 @@ class MaterialPanel;
 class Recovery;
 class TimingPanel;
 
-/// What the window is opened with.
-struct WindowSettings {
-    std::filesystem::path input; ///< empty: the gallery
-    std::optional<Material> material;
-    renderer::DeviceSettings device;
-};
-
 class MainWindow : public QMainWindow {
     Q_OBJECT
 
 public:
-    explicit MainWindow(const WindowSettings& settings);
+    explicit MainWindow(const renderer::DeviceSettings& device);
     ~MainWindow() override;
 
     Document& document() { return document_; }
@@ -45,13 +38,18 @@ public:
 
     /// Opens a file, or the gallery where the name is empty. What goes wrong is said in a dialogue; false then.
     bool openFile(const QString& file);
+    /// The same of a scene that `load` loads from it.
+    bool openLoaded(const QString& file, const std::function<scene::Scene()>& load);
     /// Draws until everything that is shown has all its samples.
     bool drawUntilStill(int milliseconds);
     /// Asks whether to go on with what a program that crashed has left.
     void offerRecovered();
+    /// Says a sentence that does not interrupt.
+    void note(const QString& sentence);
     /// Says a sentence that the user has to see. Scripts and tests read it in `lastFault`.
     void complain(const QString& sentence);
     const QString& lastFault() const { return lastFault_; }
+    MaterialPanel& materialPanel() { return *material_; }
     /// Faults are only noted, and nothing asks: for scripts.
     void setQuiet(bool quiet) { quiet_ = quiet; }
 
@@ -81,6 +79,7 @@ private:
 
     void sceneOpened();
     void applyScene();
+    void changedOnDisk();
     void applyView();
     void showStatus();
     void pick(QPointF place);
@@ -88,7 +87,7 @@ private:
     const trace::Geometry& geometry();
     scene::Camera firstCamera() const;
     void openDropped(const QString& file);
-    void openPath(const std::filesystem::path& file, const std::optional<Material>& material);
+    void openPath(const QString& file, const std::function<scene::Scene()>& load);
     void makeLoop();
 
     void chooseFile();
@@ -97,11 +96,12 @@ private:
     void savePicture();
     void resetCamera();
     void showShortcuts();
+    void saveMaterial();
+    void copyStructs();
     void cycleCompare();
     void reloadShaders();
     void setDark(bool dark);
 
-    WindowSettings settings_;
     renderer::Device device_;
     QVulkanInstance instance_;
     Document document_;

@@ -1,5 +1,6 @@
 // Menus, panels and status bar of the window.
 #include "image/image_file.hpp"
+#include "view/model/material_structs.hpp"
 #include "view/window/compare_panel.hpp"
 #include "view/window/inspect_panel.hpp"
 #include "view/window/light_panel.hpp"
@@ -9,6 +10,7 @@
 #include "view/window/timing_panel.hpp"
 
 #include <QApplication>
+#include <QClipboard>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -126,6 +128,10 @@ void MainWindow::makeMenus() {
         Action{"file.gallery", "&Gallery", QKeySequence("Ctrl+G"), "Open the built-in gallery",
                &MainWindow::openGallery},
         Action{"file.reload", "&Reload", QKeySequence("F5"), "Read the file again", &MainWindow::reload},
+        Action{"file.saveMaterial", "&Save material…", QKeySequence::Save, "Write the material that is shown to a file",
+               &MainWindow::saveMaterial},
+        Action{"file.copyStructs", "&Copy material as C", QKeySequence("Ctrl+Shift+C"),
+               "Copy the material as the structs of nacre.h, for an engine's source", &MainWindow::copyStructs},
         Action{"file.savePicture", "Save &picture…", QKeySequence("Ctrl+P"), "Write the picture to a PNG or EXR file",
                &MainWindow::savePicture}};
     addActions("&File", file);
@@ -234,6 +240,16 @@ void MainWindow::savePicture() {
     }
 }
 
+void MainWindow::saveMaterial() {
+    material_->askAndSave();
+}
+
+void MainWindow::copyStructs() {
+    QApplication::clipboard()->setText(
+        QString::fromStdString(structsOf(document_.edited().materials[document_.material()].drawn())));
+    statusBar()->showMessage("The material is on the clipboard as C", 5000);
+}
+
 void MainWindow::resetCamera() {
     picture_->setCamera(firstCamera());
 }
@@ -277,6 +293,14 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
     if (event->text() == "?") {
         showShortcuts();
         return;
+    }
+    // The picture has the keyboard to itself while it has the focus.
+    const QKeySequence pressed(event->keyCombination());
+    for (QAction* action : findChildren<QAction*>()) {
+        if (action->isEnabled() && action->shortcuts().contains(pressed)) {
+            action->trigger();
+            return;
+        }
     }
     QMainWindow::keyPressEvent(event);
 }

@@ -74,13 +74,7 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
             load(file);
         }
     });
-    addMaker("material.save", "Save …", "Write this material to a file", [this] {
-        const QString name = QString::fromStdString(material().name) + ".json";
-        const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, materialFilter);
-        if (!file.isEmpty()) {
-            save(file);
-        }
-    });
+    addMaker("material.save", "Save …", "Write this material to a file", [this] { askAndSave(); });
     source->addRow(make);
     layout->addLayout(source);
 
@@ -224,11 +218,20 @@ void MaterialPanel::load(const QString& file) {
     makeFrom("load material", [&] { return loadMaterial(file.toStdString()); });
 }
 
-void MaterialPanel::save(const QString& file) const {
+void MaterialPanel::askAndSave() {
+    const QString name = QString::fromStdString(material().name) + ".json";
+    const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, materialFilter);
+    if (!file.isEmpty()) {
+        save(file);
+    }
+}
+
+void MaterialPanel::save(const QString& file) {
     try {
         saveMaterial(document_.edited().materials[document_.material()].drawn(), file.toStdString());
+        document_.history().setClean();
     } catch (const std::exception& error) {
-        Q_EMIT const_cast<MaterialPanel*>(this)->failed(QString::fromUtf8(error.what()));
+        Q_EMIT failed(QString::fromUtf8(error.what()));
     }
 }
 

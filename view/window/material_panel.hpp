@@ -21,9 +21,10 @@ public:
 
     /// Where the plots look at the bank's mixture; the radius is also told in pixels of this scale.
     void setScale(double pixelsPerMillimeter);
-    /// Loads or saves the material that is shown. Throws FileError.
+    /// Loads or saves the material that is shown; `failed` says what goes wrong.
     void load(const QString& file);
-    void save(const QString& file) const;
+    void save(const QString& file);
+    void askAndSave();
 
 Q_SIGNALS:
     void failed(QString sentence);

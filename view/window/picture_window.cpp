@@ -149,8 +149,6 @@ void PictureWindow::tick() {
             timer_.start(busyMilliseconds);
             break;
         case Step::Converged:
-            loop_->wait();
-            break;
         case Step::Hidden:
             break;
         }

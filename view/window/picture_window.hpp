@@ -30,7 +30,9 @@ public:
     const scene::Camera& camera() const { return camera_; }
     void setCamera(const scene::Camera& camera);
     void setDivider(float divider) { divider_ = divider; }
+    float divider() const { return divider_; }
     void setComparing(bool comparing) { comparing_ = comparing; }
+    bool isComparing() const { return comparing_; }
     /// The picture's size for the window's.
     QSize pictureSize() const;
 

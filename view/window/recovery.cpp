@@ -52,14 +52,10 @@ std::optional<Recovered> read(const QString& path) {
 
 Recovery::Recovery() : file_(folder().filePath(QString("recovery-%1.json").arg(QCoreApplication::applicationPid()))) {}
 
-Recovery::~Recovery() {
-    remove();
-}
-
 void Recovery::save(const QString& scene, const EditedScene& edited) {
     QJsonArray materials;
     for (const EditedMaterial& material : edited.materials) {
-        materials.append(QString::fromStdString(formatMaterial(material.material)));
+        materials.append(QString::fromStdString(formatMaterial(material.drawn())));
     }
     const QJsonObject object{
         {"process", QCoreApplication::applicationPid()}, {"scene", scene}, {"materials", materials}};

@@ -20,11 +20,10 @@ struct Recovered {
 class Recovery {
 public:
     Recovery();
-    /// Nothing is lost any more: removes the file.
-    ~Recovery();
 
     /// Throws FileError where it cannot be written.
     void save(const QString& scene, const EditedScene& edited);
+    /// Nothing would be lost any more.
     void remove();
 
     /// What programs that no longer run have left, the last one; forgets it and the others.

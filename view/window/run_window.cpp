@@ -1,11 +1,12 @@
 #include "view/run_window.hpp"
 
 #include "view/window/main_window.hpp"
+#include "view/window/script.hpp"
 
 #include <QApplication>
 #include <QTimer>
 
-#include <iostream>
+#include <stdexcept>
 
 namespace nacre::view {
 namespace {
@@ -19,6 +20,21 @@ void requireDisplay() {
     }
 }
 
+void requireNoMessages(const MainWindow& window) {
+    const std::vector<std::string>& messages = window.device().validationMessages();
+    if (!messages.empty()) {
+        throw std::runtime_error("the validation layer has " + std::to_string(messages.size()) +
+                                 " messages, the first: " + messages.front());
+    }
+}
+
+void runScripted(MainWindow& window, const RunSettings& settings, const Script& script) {
+    if (!window.openLoaded(QString::fromStdString(settings.input.string()), settings.load)) {
+        throw std::runtime_error(window.lastFault().toStdString());
+    }
+    script.run(window);
+}
+
 } // namespace
 
 int runWindow(const RunSettings& settings) {
@@ -29,18 +45,24 @@ int runWindow(const RunSettings& settings) {
     QApplication application(argumentCount, arguments);
     QApplication::setApplicationName("nacre");
     QApplication::setOrganizationName("nacre");
-    MainWindow window({settings.input, settings.material, settings.device});
+    MainWindow window(settings.device);
+    if (!settings.script.empty()) {
+        const Script script(settings.script);
+        window.setQuiet(true);
+        window.resize(script.windowSize().value_or(window.size()));
+        window.show();
+        QApplication::processEvents();
+        runScripted(window, settings, script);
+        requireNoMessages(window);
+        return 0;
+    }
     window.show();
     QTimer::singleShot(0, &window, [&] {
-        window.openFile(QString::fromStdString(settings.input.string()));
+        window.openLoaded(QString::fromStdString(settings.input.string()), settings.load);
         window.offerRecovered();
     });
     const int result = QApplication::exec();
-    if (!window.device().validationMessages().empty()) {
-        throw std::runtime_error("the validation layer has " +
-                                 std::to_string(window.device().validationMessages().size()) +
-                                 " messages, the first: " + window.device().validationMessages().front());
-    }
+    requireNoMessages(window);
     return result;
 }
 

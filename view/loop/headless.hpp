@@ -1,0 +1,58 @@
+// The viewer's loop without a window: what frames take, and turntables.
+#pragma once
+
+#include "renderer/graphics_device.hpp"
+#include "scene/scene.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <ostream>
+
+namespace nacre::view {
+
+struct HeadlessSettings {
+    std::uint32_t frames = 120; ///< [≥ 2] of each run
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint32_t shadowMapSize = 2048;
+};
+
+/// Median and 99th percentile, the nearest value at or above that share.
+struct Distribution {
+    double median = 0;
+    double p99 = 0;
+};
+Distribution distributionOf(std::vector<double> values);
+
+/// What the frames of one run took, ms.
+struct HeadlessRun {
+    Distribution frame;       ///< on the device
+    Distribution effect;      ///< scatter and transmit, on the device
+    Distribution processor;   ///< from the start of recording to the submission
+    Distribution interval;    ///< from one frame to the next
+    std::vector<std::pair<std::string, double>> passes; ///< medians, in order
+};
+
+/// Draws `frames` frames while the camera goes around the scene, with the lights still or moving.
+HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, const HeadlessSettings& settings,
+                        bool lightsMove);
+
+/// Both runs, as a table for a terminal.
+void printHeadless(std::ostream& out, renderer::Device& device, const scene::Scene& scene,
+                   const HeadlessSettings& settings);
+
+struct TurntableSettings {
+    std::uint32_t count = 36; ///< [≥ 1] frames of a whole turn
+    std::uint32_t first = 0;  ///< frames that are drawn, [first, last]
+    std::uint32_t last = 35;
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint32_t samples = 16; ///< [≥ 1] of a picture
+    std::uint32_t shadowMapSize = 2048;
+    std::filesystem::path folder; ///< gets 0000.png, 0001.png, …
+};
+
+/// Draws pictures from around the scene. Frame i is the same whichever frames are drawn beside it.
+void drawTurntable(renderer::Device& device, const scene::Scene& scene, const TurntableSettings& settings);
+
+} // namespace nacre::view

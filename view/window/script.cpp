@@ -1,0 +1,294 @@
+#include "view/window/script.hpp"
+
+#include "nacre/files.hpp"
+#include "view/window/main_window.hpp"
+#include "view/window/material_panel.hpp"
+#include "view/window/parameter_slider.hpp"
+#include "image/image_file.hpp"
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QListWidget>
+#include <QPainter>
+#include <QTest>
+
+#include <array>
+#include <functional>
+
+namespace nacre::view {
+namespace {
+
+constexpr int longestWait = 600'000; // ms: a software device needs its time
+
+/// What is wrong with a step; the file and the step's number are put before it.
+struct StepFault : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+[[noreturn]] void refuse(const QString& sentence) {
+    throw StepFault(sentence.toStdString());
+}
+
+template <typename Widget> Widget& find(MainWindow& window, const QString& name) {
+    auto* widget = window.findChild<Widget*>(name);
+    if (widget == nullptr) {
+        refuse("there is no " + QString(Widget::staticMetaObject.className()) + " '" + name + "'");
+    }
+    return *widget;
+}
+
+QString textOf(const QJsonValue& value, const char* what) {
+    if (!value.isString()) {
+        refuse(QString("'%1' must be a text").arg(what));
+    }
+    return value.toString();
+}
+
+std::array<double, 2> pairOf(const QJsonValue& value, const char* what) {
+    const QJsonArray numbers = value.toArray();
+    if (numbers.size() != 2 || !numbers[0].isDouble() || !numbers[1].isDouble()) {
+        refuse(QString("'%1' must be two numbers").arg(what));
+    }
+    return {numbers[0].toDouble(), numbers[1].toDouble()};
+}
+
+void requireNoFault(MainWindow& window, const QString& before) {
+    if (window.lastFault() != before) {
+        refuse("it went wrong: " + window.lastFault());
+    }
+}
+
+/// {"set": NAME, "value": NUMBER}: as if typed into the parameter's field.
+void set(MainWindow& window, const QJsonObject& step) {
+    auto& slider = find<ParameterSlider>(window, textOf(step["set"], "set"));
+    if (!step["value"].isDouble()) {
+        refuse("'value' must be a number");
+    }
+    slider.setValue(step["value"].toDouble());
+    Q_EMIT slider.finished();
+}
+
+/// {"choose": NAME, "item": TEXT} of a list.
+void choose(MainWindow& window, const QJsonObject& step) {
+    const QString item = textOf(step["item"], "item");
+    auto& box = find<QComboBox>(window, textOf(step["choose"], "choose"));
+    const int row = box.findText(item);
+    if (row < 0) {
+        refuse("'" + box.objectName() + "' has no item '" + item + "'");
+    }
+    box.setCurrentIndex(row);
+    Q_EMIT box.activated(row);
+}
+
+/// {"select": NAME, "row": NUMBER}, and "checked" of that row.
+void select(MainWindow& window, const QJsonObject& step) {
+    auto& list = find<QListWidget>(window, textOf(step["select"], "select"));
+    const int row = step["row"].toInt(-1);
+    if (row < 0 || row >= list.count()) {
+        refuse(QString("'%1' has no row %2, only 0 to %3").arg(list.objectName()).arg(row).arg(list.count() - 1));
+    }
+    list.setCurrentRow(row);
+    if (step.contains("checked")) {
+        list.item(row)->setCheckState(step["checked"].toBool() ? Qt::Checked : Qt::Unchecked);
+    }
+}
+
+void click(MainWindow& window, const QJsonObject& step) {
+    auto& button = find<QAbstractButton>(window, textOf(step["click"], "click"));
+    if (!button.isEnabled()) {
+        refuse("'" + button.objectName() + "' is disabled");
+    }
+    button.click();
+}
+
+void act(MainWindow& window, const QJsonObject& step) {
+    find<QAction>(window, textOf(step["action"], "action")).trigger();
+}
+
+void press(MainWindow& window, const QJsonObject& step) {
+    const QKeySequence keys(textOf(step["key"], "key"));
+    if (keys.count() != 1 || keys[0].key() == Qt::Key_unknown) {
+        refuse("'" + step["key"].toString() + "' is no key");
+    }
+    QTest::keyClick(&window, keys[0].key(), keys[0].keyboardModifiers());
+}
+
+void openFile(MainWindow& window, const QJsonObject& step) {
+    const QString file = textOf(step["open"], "open");
+    if (!window.openFile(file == "gallery" ? QString() : file)) {
+        refuse("it went wrong: " + window.lastFault());
+    }
+}
+
+void showPanel(MainWindow& window, const QJsonObject& step) {
+    auto& dock = find<QDockWidget>(window, "dock." + textOf(step["panel"], "panel").toLower());
+    dock.show();
+    dock.raise();
+    QApplication::processEvents();
+}
+
+/// {"drag": [X, Y], "to": [X, Y]} in the picture, shares of it.
+void drag(MainWindow& window, const QJsonObject& step) {
+    const auto at = [&](const char* key) {
+        const std::array<double, 2> place = pairOf(step[key], key);
+        return QPoint(static_cast<int>(place[0] * window.picture().width()),
+                      static_cast<int>(place[1] * window.picture().height()));
+    };
+    const QPoint from = at("drag");
+    const QPoint to = at("to");
+    QTest::mousePress(&window.picture(), Qt::LeftButton, Qt::NoModifier, from);
+    constexpr int moves = 8;
+    for (int i = 1; i <= moves; ++i) {
+        const QPoint place = from + (to - from) * i / moves;
+        QMouseEvent event(QEvent::MouseMove, place, window.picture().mapToGlobal(place), Qt::NoButton, Qt::LeftButton,
+                          Qt::NoModifier);
+        QApplication::sendEvent(&window.picture(), &event);
+        QApplication::processEvents();
+    }
+    QTest::mouseRelease(&window.picture(), Qt::LeftButton, Qt::NoModifier, to);
+}
+
+void pick(MainWindow& window, const QJsonObject& step) {
+    const std::array<double, 2> place = pairOf(step["pick"], "pick");
+    Q_EMIT window.picture().clicked(QPointF(place[0], place[1]));
+}
+
+void resizeWindow(MainWindow& window, const QJsonObject& step) {
+    const std::array<double, 2> size = pairOf(step["size"], "size");
+    window.resize(static_cast<int>(size[0]), static_cast<int>(size[1]));
+    QApplication::processEvents();
+}
+
+void waitStill(MainWindow& window, const QJsonObject&) {
+    if (!window.drawUntilStill(longestWait)) {
+        refuse("the picture is not finished after ten minutes");
+    }
+}
+
+void savePicture(MainWindow& window, const QJsonObject& step) {
+    const renderer::SidePicture picture = window.loop()->read(0);
+    const QString file = textOf(step["picture"], "picture");
+    writeImage(file.toStdString(), file.endsWith(".exr") ? picture.light : picture.shown);
+}
+
+void saveMaterial(MainWindow& window, const QJsonObject& step) {
+    window.materialPanel().save(textOf(step["saveMaterial"], "saveMaterial"));
+}
+
+void loadMaterialFile(MainWindow& window, const QJsonObject& step) {
+    window.materialPanel().load(textOf(step["loadMaterial"], "loadMaterial"));
+}
+
+QImage toImage(const Image& linear) {
+    const Image encoded = toEncoding(linear, Encoding::Srgb);
+    QImage result(static_cast<int>(linear.width), static_cast<int>(linear.height), QImage::Format_RGB32);
+    for (int y = 0; y < result.height(); ++y) {
+        for (int x = 0; x < result.width(); ++x) {
+            const std::span<const float> pixel = encoded.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+            const auto byte = [&](std::size_t channel) { return static_cast<int>(255 * pixel[channel] + 0.5f); };
+            result.setPixel(x, y, qRgb(byte(0), byte(1), byte(2)));
+        }
+    }
+    return result;
+}
+
+/// {"screenshot": FILE.png}: the window with its picture, which Qt does not see.
+void takeScreenshot(MainWindow& window, const QJsonObject& step) {
+    QPixmap shot = window.grab();
+    {
+        QPainter painter(&shot);
+        const QRect area(window.centralWidget()->pos(), window.centralWidget()->size());
+        painter.drawImage(area, toImage(window.loop()->read(0).shown));
+        if (window.picture().isComparing()) {
+            const renderer::SidePicture second = window.loop()->read(1);
+            const QImage image = toImage(second.shown);
+            const double divider = window.picture().divider();
+            const QRectF from(image.width() * divider, 0, image.width() * (1 - divider), image.height());
+            painter.drawImage(QRectF(area.left() + area.width() * divider, area.top(), area.width() * (1 - divider),
+                                     area.height()),
+                              image, from);
+            painter.setPen(QPen(Qt::white, 2));
+            const int x = area.left() + static_cast<int>(area.width() * divider);
+            painter.drawLine(x, area.top(), x, area.bottom());
+        }
+    }
+    const QString file = textOf(step["screenshot"], "screenshot");
+    if (!shot.save(file)) {
+        refuse("'" + file + "' cannot be written");
+    }
+}
+
+/// A step is what its first key among these says.
+struct StepKind {
+    const char* key;
+    void (*run)(MainWindow&, const QJsonObject&);
+};
+constexpr std::array kinds{StepKind{"set", set},         StepKind{"choose", choose},     StepKind{"select", select},
+                           StepKind{"click", click},     StepKind{"action", act},        StepKind{"key", press},
+                           StepKind{"open", openFile},   StepKind{"panel", showPanel},   StepKind{"drag", drag},
+                           StepKind{"pick", pick},       StepKind{"size", resizeWindow}, StepKind{"wait", waitStill},
+                           StepKind{"saveMaterial", saveMaterial}, StepKind{"loadMaterial", loadMaterialFile},
+                           StepKind{"picture", savePicture}, StepKind{"screenshot", takeScreenshot}};
+
+void runStep(MainWindow& window, const QJsonObject& step) {
+    for (const StepKind& kind : kinds) {
+        if (step.contains(kind.key)) {
+            const QString before = window.lastFault();
+            kind.run(window, step);
+            QApplication::processEvents();
+            requireNoFault(window, before);
+            return;
+        }
+    }
+    QStringList names;
+    for (const StepKind& kind : kinds) {
+        names << kind.key;
+    }
+    refuse("it has none of the keys " + names.join(", "));
+}
+
+} // namespace
+
+Script::Script(const std::filesystem::path& file) : file_(file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    QJsonParseError fault{};
+    const QJsonDocument document = QJsonDocument::fromJson(
+        QByteArray(reinterpret_cast<const char*>(bytes.data()), static_cast<qsizetype>(bytes.size())), &fault);
+    if (fault.error != QJsonParseError::NoError) {
+        throw FileError(file.string() + ": is not JSON: " + fault.errorString().toStdString());
+    }
+    content_ = document.object();
+    if (!content_["steps"].isArray()) {
+        throw FileError(file.string() + ": 'steps' must be a list");
+    }
+    static_cast<void>(windowSize());
+}
+
+std::optional<QSize> Script::windowSize() const {
+    if (!content_.contains("size")) {
+        return std::nullopt;
+    }
+    const QJsonArray size = content_["size"].toArray();
+    if (size.size() != 2 || size[0].toInt() < 1 || size[1].toInt() < 1) {
+        throw FileError(file_.string() + ": 'size' must be two numbers of pixels");
+    }
+    return QSize(size[0].toInt(), size[1].toInt());
+}
+
+void Script::run(MainWindow& window) const {
+    const QJsonArray steps = content_["steps"].toArray();
+    for (qsizetype i = 0; i < steps.size(); ++i) {
+        try {
+            runStep(window, steps[i].toObject());
+        } catch (const StepFault& error) {
+            throw std::runtime_error(file_.string() + ": steps[" + std::to_string(i) + "]: " + error.what());
+        }
+    }
+}
+
+} // namespace nacre::view
