@@ -42,8 +42,7 @@ bool markSide(Side side, const std::vector<Light>& lights, const Camera& camera,
               std::vector<bool>& marks) {
     bool any = false;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const bool isThere =
-            side == Side::Both || scene::isInFront(lights[i], camera, center) == (side == Side::Front);
+        const bool isThere = side == Side::Both || scene::isInFront(lights[i], camera, center) == (side == Side::Front);
         marks[i] = marks[i] || isThere;
         any = any || isThere;
     }

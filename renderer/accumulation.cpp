@@ -117,11 +117,11 @@ void Accumulation::recordShow(const vk::raii::CommandBuffer& commandBuffer, vk::
     using usage::Access;
     using usage::Stage;
     const bool hasSecond = sides_[1].extent.width > 0;
-    shared::ShowConstants constants{
-        .place = {window.width, window.height,
-                  static_cast<std::uint32_t>(hasSecond ? look.sides : ShownSides::First), swapped ? 1u : 0u},
-        .sides = {},
-        .divider = {look.divider, look.differenceGain, 0, 0}};
+    shared::ShowConstants constants{.place = {window.width, window.height,
+                                              static_cast<std::uint32_t>(hasSecond ? look.sides : ShownSides::First),
+                                              swapped ? 1u : 0u},
+                                    .sides = {},
+                                    .divider = {look.divider, look.differenceGain, 0, 0}};
     for (std::uint32_t side = 0; side < sideCount; ++side) {
         constants.sides[side] = {sides_[side].extent.width, sides_[side].extent.height, firstPixel(side), 0};
     }

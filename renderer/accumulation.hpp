@@ -36,10 +36,10 @@ enum class ToneCurve {
 struct SampleLook {
     ShownImage image = ShownImage::Picture;
     ToneCurve curve = ToneCurve::Neutral;
-    float exposure = 1;              ///< light is multiplied by it
-    glm::vec2 depthRange{0, 1};      ///< scene units, from white to black
-    float thicknessRange = 10;       ///< [> 0] mm that are white
-    bool givenIsDisplayed = false;   ///< the given picture is what a display shows, before its sRGB encoding
+    float exposure = 1;            ///< light is multiplied by it
+    glm::vec2 depthRange{0, 1};    ///< scene units, from white to black
+    float thicknessRange = 10;     ///< [> 0] mm that are white
+    bool givenIsDisplayed = false; ///< the given picture is what a display shows, before its sRGB encoding
     bool operator==(const SampleLook&) const = default;
 };
 

@@ -32,8 +32,8 @@ public:
         vk::Image image;
         vk::Semaphore finished; ///< to be signalled when the image has been drawn
     };
-    /// The next image, whose readers signal `free`. Nothing where none is to be had now, or the images no longer fit the
-    /// window, which `isUsable` then says.
+    /// The next image, whose readers signal `free`. Nothing where none is to be had now, or the images no longer fit
+    /// the window, which `isUsable` then says.
     std::optional<Acquired> acquire(vk::Semaphore free);
     void present(const Acquired& image);
 

@@ -79,8 +79,8 @@ TEST_F(ViewTest, HeadlessSaysWhatFramesTakeWithLightsStillAndMoving) {
 TEST_F(ViewTest, ATurntablesFrameIsTheSameWhoeverDrawsIt) {
     const auto turntable = [&](const std::string& frames, const std::string& output) {
         const Outcome outcome =
-            run({"view", "cube.obj", "--material", "wax", "--turntable", "3", "--frames", frames, "-o", output, "--size",
-                 "32x18", "--picture-samples", "2", "--shadow-map-size", "64"});
+            run({"view", "cube.obj", "--material", "wax", "--turntable", "3", "--frames", frames, "-o", output,
+                 "--size", "32x18", "--picture-samples", "2", "--shadow-map-size", "64"});
         EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
     };
     turntable("0:2", "all");

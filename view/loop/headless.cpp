@@ -106,8 +106,8 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
         orbit(camera, {turn / static_cast<float>(settings.frames), 0});
         loop.setCamera(camera);
         if (lightsMove) {
-            loop.setLights(turnedLights(scene.lights, turn * static_cast<float>(frame) /
-                                                          static_cast<float>(settings.frames)));
+            loop.setLights(
+                turnedLights(scene.lights, turn * static_cast<float>(frame) / static_cast<float>(settings.frames)));
         }
         drawOne(loop);
     };
@@ -125,8 +125,11 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
         last = now;
     }
     loop.wait();
-    HeadlessRun run{distributionOf(times.frame), distributionOf(times.effect), distributionOf(times.processor),
-                    distributionOf(times.interval), {}};
+    HeadlessRun run{distributionOf(times.frame),
+                    distributionOf(times.effect),
+                    distributionOf(times.processor),
+                    distributionOf(times.interval),
+                    {}};
     for (const auto& [name, values] : times.passes) {
         run.passes.emplace_back(name, distributionOf(values).median);
     }

@@ -26,10 +26,10 @@ Distribution distributionOf(std::vector<double> values);
 
 /// What the frames of one run took, ms.
 struct HeadlessRun {
-    Distribution frame;       ///< on the device
-    Distribution effect;      ///< scatter and transmit, on the device
-    Distribution processor;   ///< from the start of recording to the submission
-    Distribution interval;    ///< from one frame to the next
+    Distribution frame;                                 ///< on the device
+    Distribution effect;                                ///< scatter and transmit, on the device
+    Distribution processor;                             ///< from the start of recording to the submission
+    Distribution interval;                              ///< from one frame to the next
     std::vector<std::pair<std::string, double>> passes; ///< medians, in order
 };
 

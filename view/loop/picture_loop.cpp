@@ -96,11 +96,9 @@ renderer::RenderSettings PictureLoop::renderSettings(vk::Extent2D extent) const 
 }
 
 std::unique_ptr<PictureLoop::Sized> PictureLoop::makeFrame(vk::Extent2D extent) {
-    const renderer::FrameLimits limits{.framesInFlight = settings_.framesInFlight,
-                                       .lights = settings_.lights,
-                                       .shadowLayers = settings_.shadowLayers};
-    return std::make_unique<Sized>(
-        Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
+    const renderer::FrameLimits limits{
+        .framesInFlight = settings_.framesInFlight, .lights = settings_.lights, .shadowLayers = settings_.shadowLayers};
+    return std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
 }
 
 void PictureLoop::makeSlots() {
@@ -377,8 +375,7 @@ Step PictureLoop::step() {
             slot.imageFree = vk::raii::Semaphore(gpu_.device, vk::SemaphoreCreateInfo{});
             throw;
         }
-        stepMilliseconds_ =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        stepMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
         next_ = (next_ + 1) % static_cast<std::uint32_t>(slots_.size());
         return Step::Drawn;
     });
@@ -428,10 +425,9 @@ void PictureLoop::recordWindow(const vk::raii::CommandBuffer& commands, const re
     const renderer::Usage before{vk::PipelineStageFlagBits2::eTransfer, {}, vk::ImageLayout::eUndefined};
     const renderer::Usage after{vk::PipelineStageFlagBits2::eTransfer, {}, vk::ImageLayout::ePresentSrcKHR};
     record(commands, barrier(image.image, before, renderer::usage::transferWrite));
-    commands.copyBufferToImage(
-        accumulation_->pixels(), image.image, vk::ImageLayout::eTransferDstOptimal,
-        vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                            .imageExtent = {window.width, window.height, 1}});
+    commands.copyBufferToImage(accumulation_->pixels(), image.image, vk::ImageLayout::eTransferDstOptimal,
+                               vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                                   .imageExtent = {window.width, window.height, 1}});
     record(commands, barrier(image.image, renderer::usage::transferWrite, after));
     showAgain_ = false;
 }

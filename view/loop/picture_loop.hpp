@@ -25,13 +25,13 @@ struct LoopSettings {
     std::uint32_t height = 720;
     std::uint32_t shadowMapSize = 2048;
     std::uint32_t framesInFlight = 2;
-    std::uint32_t stillSamples = 64;     ///< [≥ 1] samples that a picture at rest adds up
-    bool thickness = true;               ///< ShownImage::Thickness can be shown
-    bool shadowMapsEveryFrame = false;   ///< as RenderSettings has it
-    bool restartEveryFrame = false;      ///< every frame is a picture of its own, as if something always moved
-    double tolerableMilliseconds = 50;   ///< of a frame while something moves; slower devices then draw fewer pixels
-    std::uint32_t lights = 0;            ///< most lights that can be set; never less than the scene's
-    std::uint32_t shadowLayers = 0;      ///< likewise, as FrameLimits has it
+    std::uint32_t stillSamples = 64;   ///< [≥ 1] samples that a picture at rest adds up
+    bool thickness = true;             ///< ShownImage::Thickness can be shown
+    bool shadowMapsEveryFrame = false; ///< as RenderSettings has it
+    bool restartEveryFrame = false;    ///< every frame is a picture of its own, as if something always moved
+    double tolerableMilliseconds = 50; ///< of a frame while something moves; slower devices then draw fewer pixels
+    std::uint32_t lights = 0;          ///< most lights that can be set; never less than the scene's
+    std::uint32_t shadowLayers = 0;    ///< likewise, as FrameLimits has it
 };
 
 /// What a step did.

@@ -25,8 +25,7 @@ Image pictureOf(const reference::Film& film) {
 
 } // namespace
 
-ReferenceTask::ReferenceTask(scene::Scene scene, const scene::Camera& camera, std::uint32_t width,
-                             std::uint32_t height)
+ReferenceTask::ReferenceTask(scene::Scene scene, const scene::Camera& camera, std::uint32_t width, std::uint32_t height)
     : scene_(std::move(scene)), thread_([this, camera, width, height] { run(camera, width, height); }) {}
 
 ReferenceTask::~ReferenceTask() {

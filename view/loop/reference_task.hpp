@@ -19,10 +19,10 @@ public:
     ~ReferenceTask();
 
     struct State {
-        Image light;           ///< R G B radiance; empty before the first sample of every pixel
-        double samples = 0;    ///< of every pixel, on average
-        double noise = 0;      ///< relative standard error; infinite below 2 samples
-        std::string fault;     ///< what went wrong, or nothing
+        Image light;               ///< R G B radiance; empty before the first sample of every pixel
+        double samples = 0;        ///< of every pixel, on average
+        double noise = 0;          ///< relative standard error; infinite below 2 samples
+        std::string fault;         ///< what went wrong, or nothing
         std::uint64_t version = 0; ///< grows with every new picture
     };
     State state() const;

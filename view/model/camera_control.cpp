@@ -30,8 +30,7 @@ glm::vec3 turned(const scene::Camera& camera, const glm::vec3& vector, glm::vec2
     const glm::vec3 axis = glm::normalize(camera.up);
     const glm::vec3 direction = glm::normalize(vector);
     const float fromPole = std::acos(std::clamp(glm::dot(direction, axis), -1.0f, 1.0f));
-    const float rise =
-        fromPole - std::clamp(fromPole - turn.y, poleDistance, glm::pi<float>() - poleDistance);
+    const float rise = fromPole - std::clamp(fromPole - turn.y, poleDistance, glm::pi<float>() - poleDistance);
     const glm::vec3 right = glm::normalize(glm::cross(direction, axis));
     const glm::mat4 up = glm::rotate(glm::mat4(1), rise, right);
     const glm::mat4 around = glm::rotate(glm::mat4(1), -turn.x, axis);

@@ -103,8 +103,8 @@ std::string transmitSentence(const trace::Geometry& geometry, const EditedScene&
 } // namespace
 
 std::optional<Inspection> inspect(const trace::Geometry& geometry, const EditedScene& edited,
-                                  const scene::Camera& camera, const renderer::EffectSettings& effect,
-                                  glm::dvec2 place, std::uint32_t width, std::uint32_t height) {
+                                  const scene::Camera& camera, const renderer::EffectSettings& effect, glm::dvec2 place,
+                                  std::uint32_t width, std::uint32_t height) {
     const trace::View view(camera, width, height);
     const std::optional<trace::Hit> hit = geometry.visible(view.ray(place.x * width, place.y * height));
     if (!hit) {
@@ -113,8 +113,11 @@ std::optional<Inspection> inspect(const trace::Geometry& geometry, const EditedS
     const scene::Scene& scene = geometry.scene();
     const scene::Instance& instance = scene.instances[hit->instance];
     const trace::SurfacePoint point = geometry.surfaceAt(*hit);
-    Inspection result{.body = instance.name, .surface = scene.meshes[instance.mesh].surface, .material = {},
-                      .pixelsPerMillimeter = 0, .sentence = {}};
+    Inspection result{.body = instance.name,
+                      .surface = scene.meshes[instance.mesh].surface,
+                      .material = {},
+                      .pixelsPerMillimeter = 0,
+                      .sentence = {}};
     const glm::vec3 forward = glm::normalize(camera.target - camera.position);
     const double depth = glm::dot(point.position - camera.position, forward);
     const double heightThere = camera.projection == scene::ProjectionKind::Orthographic

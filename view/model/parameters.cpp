@@ -106,9 +106,7 @@ std::span<const Parameter<scene::Light>> lightParameters() {
         Parameter<scene::Light>{"light.intensity", "Intensity", "", 0.001, 1000, true, 3,
                                 "Irradiance on a surface that faces the light; of a spot or point light at one metre",
                                 [](const scene::Light& light) { return double(light.intensity); },
-                                [](scene::Light& light, double value) {
-                                    light.intensity = static_cast<float>(value);
-                                }},
+                                [](scene::Light& light, double value) { light.intensity = static_cast<float>(value); }},
         direction<0>("light.directionX", "Direction X"),
         direction<1>("light.directionY", "Direction Y"),
         direction<2>("light.directionZ", "Direction Z"),
@@ -127,24 +125,20 @@ std::span<const Parameter<scene::Light>> lightParameters() {
 
 std::span<const Parameter<EditedScene>> sceneParameters() {
     static const std::array table{
-        Parameter<EditedScene>{"scene.exposure", "Exposure", "EV", -8, 8, false, 2,
-                               "The picture is multiplied by two to this power",
-                               [](const EditedScene& scene) { return double(scene.exposureStops); },
-                               [](EditedScene& scene, double value) {
-                                   scene.exposureStops = static_cast<float>(value);
-                               }},
-        Parameter<EditedScene>{"scene.environmentIntensity", "Environment", "×", 0, 4, false, 2,
-                               "Multiplies the light of the surroundings",
-                               [](const EditedScene& scene) { return double(scene.environmentIntensity); },
-                               [](EditedScene& scene, double value) {
-                                   scene.environmentIntensity = static_cast<float>(value);
-                               }},
-        Parameter<EditedScene>{"scene.environmentRotation", "Rotation", "°", -180, 180, false, 1,
-                               "Turns the surroundings about the vertical",
-                               [](const EditedScene& scene) { return scene.environmentRotation * degrees; },
-                               [](EditedScene& scene, double value) {
-                                   scene.environmentRotation = static_cast<float>(value / degrees);
-                               }}};
+        Parameter<EditedScene>{
+            "scene.exposure", "Exposure", "EV", -8, 8, false, 2, "The picture is multiplied by two to this power",
+            [](const EditedScene& scene) { return double(scene.exposureStops); },
+            [](EditedScene& scene, double value) { scene.exposureStops = static_cast<float>(value); }},
+        Parameter<EditedScene>{
+            "scene.environmentIntensity", "Environment", "×", 0, 4, false, 2,
+            "Multiplies the light of the surroundings",
+            [](const EditedScene& scene) { return double(scene.environmentIntensity); },
+            [](EditedScene& scene, double value) { scene.environmentIntensity = static_cast<float>(value); }},
+        Parameter<EditedScene>{
+            "scene.environmentRotation", "Rotation", "°", -180, 180, false, 1,
+            "Turns the surroundings about the vertical",
+            [](const EditedScene& scene) { return scene.environmentRotation * degrees; },
+            [](EditedScene& scene, double value) { scene.environmentRotation = static_cast<float>(value / degrees); }}};
     return table;
 }
 

@@ -24,9 +24,8 @@ InspectPanel::InspectPanel(Document& document, QWidget* parent)
     layout->addStretch();
     give_->setEnabled(false);
     take_->setEnabled(false);
-    connect(give_, &QPushButton::clicked, this, [this] {
-        give(static_cast<std::uint32_t>(document_.material()), "give material");
-    });
+    connect(give_, &QPushButton::clicked, this,
+            [this] { give(static_cast<std::uint32_t>(document_.material()), "give material"); });
     connect(take_, &QPushButton::clicked, this, [this] { give(scene::none, "take material away"); });
 }
 

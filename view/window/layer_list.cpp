@@ -43,7 +43,8 @@ LayerList::LayerList(Document& document, QWidget* parent)
     list_->setAccessibleName("Layers");
     list_->setFixedHeight(listHeight);
     list_->setDragDropMode(QAbstractItemView::InternalMove);
-    list_->setToolTip("Layers of the profile: root mean square radius and weights. A tick draws a layer; drag to reorder");
+    list_->setToolTip(
+        "Layers of the profile: root mean square radius and weights. A tick draws a layer; drag to reorder");
     auto* row = new QHBoxLayout(buttons_);
     row->setContentsMargins(0, 0, 0, 0);
     auto* layout = new QVBoxLayout(this);

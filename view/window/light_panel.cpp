@@ -28,18 +28,18 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
     shadow_->setObjectName("light.castsShadow");
     shadow_->setToolTip("Only light with a shadow map can come through thin parts");
     auto* layout = new QVBoxLayout(this);
-    const auto addRow = [&](std::initializer_list<std::tuple<const char*, const char*, const char*, std::function<void()>>>
-                                buttons) {
-        auto* row = new QHBoxLayout;
-        for (const auto& [name, text, toolTip, run] : buttons) {
-            auto* button = new QPushButton(text);
-            button->setObjectName(name);
-            button->setToolTip(toolTip);
-            connect(button, &QPushButton::clicked, this, run);
-            row->addWidget(button);
-        }
-        layout->addLayout(row);
-    };
+    const auto addRow =
+        [&](std::initializer_list<std::tuple<const char*, const char*, const char*, std::function<void()>>> buttons) {
+            auto* row = new QHBoxLayout;
+            for (const auto& [name, text, toolTip, run] : buttons) {
+                auto* button = new QPushButton(text);
+                button->setObjectName(name);
+                button->setToolTip(toolTip);
+                connect(button, &QPushButton::clicked, this, run);
+                row->addWidget(button);
+            }
+            layout->addLayout(row);
+        };
     addRow({{"light.front", "Front", "Only the lights on the camera's side", [this] { chooseSide(true); }},
             {"light.back", "Back", "Only the lights on the far side: what comes through thin parts",
              [this] { chooseSide(false); }},
@@ -51,11 +51,12 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
     form->addRow("", shadow_);
     layout->addLayout(form);
     layout->addWidget(parameters_);
-    addRow({{"light.addDirectional", "Add sun", "Add a directional light", [this] { add(scene::LightKind::Directional); }},
-            {"light.addSpot", "Add spot", "Add a spot light where the camera is", [this] { add(scene::LightKind::Spot); }},
-            {"light.addPoint", "Add point", "Add a point light beside the camera",
-             [this] { add(scene::LightKind::Point); }},
-            {"light.remove", "Remove", "Remove this light", [this] { remove(); }}});
+    addRow(
+        {{"light.addDirectional", "Add sun", "Add a directional light", [this] { add(scene::LightKind::Directional); }},
+         {"light.addSpot", "Add spot", "Add a spot light where the camera is", [this] { add(scene::LightKind::Spot); }},
+         {"light.addPoint", "Add point", "Add a point light beside the camera",
+          [this] { add(scene::LightKind::Point); }},
+         {"light.remove", "Remove", "Remove this light", [this] { remove(); }}});
     layout->addStretch();
 
     parameters_->onChange = [this](const Parameter<scene::Light>& parameter, double value) {
@@ -66,9 +67,8 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
     connect(kind_, &QComboBox::activated, this, [this](int row) {
         change("kind of light", {}, [row](scene::Light& light) { light.kind = static_cast<scene::LightKind>(row); });
     });
-    connect(shadow_, &QCheckBox::clicked, this, [this](bool casts) {
-        change("shadow", {}, [casts](scene::Light& light) { light.castsShadow = casts; });
-    });
+    connect(shadow_, &QCheckBox::clicked, this,
+            [this](bool casts) { change("shadow", {}, [casts](scene::Light& light) { light.castsShadow = casts; }); });
     connect(color_, &QPushButton::clicked, this, &LightPanel::chooseColor);
     connect(&document_, &Document::changed, this, &LightPanel::refresh);
     connect(&document_, &Document::selectionChanged, this, &LightPanel::refresh);
@@ -89,8 +89,8 @@ void LightPanel::refresh() {
         lights_->addItem(QString::fromStdString(light.name));
     }
     const bool isThere = document_.light() < lights.size();
-    for (QWidget* widget : {static_cast<QWidget*>(kind_), static_cast<QWidget*>(color_),
-                            static_cast<QWidget*>(shadow_), static_cast<QWidget*>(parameters_)}) {
+    for (QWidget* widget : {static_cast<QWidget*>(kind_), static_cast<QWidget*>(color_), static_cast<QWidget*>(shadow_),
+                            static_cast<QWidget*>(parameters_)}) {
         widget->setEnabled(isThere);
     }
     if (!isThere) {
@@ -104,8 +104,8 @@ void LightPanel::refresh() {
     const QColor color = QColor::fromRgbF(std::clamp(light.color.x, 0.0f, 1.0f), std::clamp(light.color.y, 0.0f, 1.0f),
                                           std::clamp(light.color.z, 0.0f, 1.0f));
     color_->setText(color.name());
-    color_->setStyleSheet(QString("background-color: %1; color: %2")
-                              .arg(color.name(), color.lightnessF() > 0.5f ? "black" : "white"));
+    color_->setStyleSheet(
+        QString("background-color: %1; color: %2").arg(color.name(), color.lightnessF() > 0.5f ? "black" : "white"));
 }
 
 void LightPanel::add(scene::LightKind kind) {
@@ -118,8 +118,8 @@ void LightPanel::add(scene::LightKind kind) {
     light.outerConeAngle = 0.4f;
     light.innerConeAngle = 0.3f;
     if (kind != scene::LightKind::Directional) {
-        const float metres = glm::distance(camera.position, camera.target) *
-                             static_cast<float>(document_.scene().metersPerUnit);
+        const float metres =
+            glm::distance(camera.position, camera.target) * static_cast<float>(document_.scene().metersPerUnit);
         light.intensity = 3 * metres * metres; // as bright as a directional light of 3 where the camera looks
     }
     document_.edit("add light", {}, [&](EditedScene& scene) { scene.lights.push_back(light); });

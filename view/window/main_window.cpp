@@ -29,9 +29,9 @@ constexpr std::uint32_t softwareShadowMapSize = 512;
 constexpr std::uint32_t softwareSamples = 16;
 constexpr std::uint32_t mostLights = 16;
 constexpr std::uint32_t mostShadowLayers = 12; // a point light has six
-constexpr float composedAspect = 16.0f / 9; // what scenes' cameras are made for
-constexpr int reloadMilliseconds = 300;     // after a change, until its writer has finished
-constexpr int recoveryMilliseconds = 500;   // after an edit, until it is safe
+constexpr float composedAspect = 16.0f / 9;    // what scenes' cameras are made for
+constexpr int reloadMilliseconds = 300;        // after a change, until its writer has finished
+constexpr int recoveryMilliseconds = 500;      // after an edit, until it is safe
 
 bool sameEffect(const renderer::EffectSettings& one, const renderer::EffectSettings& other) {
     return one.technique == other.technique && one.scatter == other.scatter && one.transmit == other.transmit;
@@ -195,7 +195,9 @@ void MainWindow::sceneOpened() {
     loop_.reset();
     drawn_ = document_.scene();
     makeLoop();
-    loop_->onFinished = [this](const renderer::FrameReport& report) { timing_->add(report, loop_->stepMilliseconds()); };
+    loop_->onFinished = [this](const renderer::FrameReport& report) {
+        timing_->add(report, loop_->stepMilliseconds());
+    };
     applyView();
     picture_->setLoop(loop_.get(), firstCamera(), scene::bounds(drawn_).radius());
     inspect_->show(std::nullopt);
@@ -239,7 +241,8 @@ void MainWindow::changedOnDisk() {
 scene::Camera MainWindow::firstCamera() const {
     scene::Camera camera = drawn_.cameras.at(0);
     const QSize size = picture_->pictureSize();
-    const float widen = std::max(1.0f, composedAspect * static_cast<float>(size.height()) / static_cast<float>(size.width()));
+    const float widen =
+        std::max(1.0f, composedAspect * static_cast<float>(size.height()) / static_cast<float>(size.width()));
     camera.verticalFieldOfView = 2 * std::atan(widen * std::tan(camera.verticalFieldOfView / 2));
     camera.orthographicHeight *= widen;
     return camera;
@@ -278,10 +281,10 @@ void MainWindow::showStatus() {
     const renderer::FrameReport& report = loop_->report();
     const vk::Extent2D size = loop_->isCoarse() ? loop_->coarseExtent() : loop_->extent();
     QString text = QString("%1 × %2 px").arg(size.width).arg(size.height);
-    text += loop_->isCoarse()      ? ", coarse while it moves"
-            : loop_->isConverged() ? QString(", %1 samples, finished").arg(loop_->samples(0))
-                                   : QString(", sample %1 of %2").arg(loop_->samples(0)).arg(
-                                         loop_->settings().stillSamples);
+    text += loop_->isCoarse() ? ", coarse while it moves"
+            : loop_->isConverged()
+                ? QString(", %1 samples, finished").arg(loop_->samples(0))
+                : QString(", sample %1 of %2").arg(loop_->samples(0)).arg(loop_->settings().stillSamples);
     if (report.totalMicroseconds > 0) {
         text += QString("   frame %1 ms, effect %2 ms")
                     .arg(report.totalMicroseconds / 1e3, 0, 'f', report.totalMicroseconds < 1e4 ? 2 : 0)
@@ -381,8 +384,7 @@ void MainWindow::openDropped(const QString& file) {
 void MainWindow::offerRecovered() {
     const std::optional<Recovered> found = Recovery::take();
     if (!found || quiet_ ||
-        QMessageBox::question(this, "Nacre",
-                              "Materials were edited the last time and not saved. Go on with them?") !=
+        QMessageBox::question(this, "Nacre", "Materials were edited the last time and not saved. Go on with them?") !=
             QMessageBox::Yes) {
         return;
     }

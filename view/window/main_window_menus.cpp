@@ -36,11 +36,13 @@ struct MouseRow {
     const char* keys;
     const char* what;
 };
-constexpr std::array mouse{
-    MouseRow{"drag", "go around what is looked at"},     MouseRow{"Shift and drag, middle button", "shift the picture"},
-    MouseRow{"wheel, Ctrl and drag", "closer, farther"}, MouseRow{"right button", "look around"},
-    MouseRow{"W A S D Q E", "fly"},                      MouseRow{"click", "choose a body's material, and say what is there"},
-    MouseRow{"drop", "open a scene, a model or a material"}};
+constexpr std::array mouse{MouseRow{"drag", "go around what is looked at"},
+                           MouseRow{"Shift and drag, middle button", "shift the picture"},
+                           MouseRow{"wheel, Ctrl and drag", "closer, farther"},
+                           MouseRow{"right button", "look around"},
+                           MouseRow{"W A S D Q E", "fly"},
+                           MouseRow{"click", "choose a body's material, and say what is there"},
+                           MouseRow{"drop", "open a scene, a model or a material"}};
 
 QPalette darkPalette() {
     const QColor window(45, 45, 48);
@@ -84,11 +86,10 @@ void MainWindow::makePanels() {
 
     QDockWidget* material = addPanel("Material", material_, Qt::RightDockWidgetArea);
     QDockWidget* last = material;
-    for (QDockWidget* dock : {addPanel("Light", lights_, Qt::RightDockWidgetArea),
-                              addPanel("Compare", compare_, Qt::RightDockWidgetArea),
-                              addPanel("Picture", look_, Qt::RightDockWidgetArea),
-                              addPanel("Inspect", inspect_, Qt::RightDockWidgetArea),
-                              addPanel("Timing", timing_, Qt::RightDockWidgetArea)}) {
+    for (QDockWidget* dock :
+         {addPanel("Light", lights_, Qt::RightDockWidgetArea), addPanel("Compare", compare_, Qt::RightDockWidgetArea),
+          addPanel("Picture", look_, Qt::RightDockWidgetArea), addPanel("Inspect", inspect_, Qt::RightDockWidgetArea),
+          addPanel("Timing", timing_, Qt::RightDockWidgetArea)}) {
         tabifyDockWidget(last, dock);
         last = dock;
     }

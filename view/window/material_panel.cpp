@@ -177,8 +177,8 @@ void MaterialPanel::refresh() {
     layer_->show(layers[std::min(layers_->layer(), layers.size() - 1)]);
     parameters_->show(shown);
     const QColor color = toColor(shown.albedo);
-    color_->setStyleSheet(QString("background-color: %1; color: %2")
-                              .arg(color.name(), color.lightnessF() > 0.5f ? "black" : "white"));
+    color_->setStyleSheet(
+        QString("background-color: %1; color: %2").arg(color.name(), color.lightnessF() > 0.5f ? "black" : "white"));
     color_->setText(color.name());
     albedoUse_->setCurrentIndex(shown.albedoUse == AlbedoUse::Post ? 0 : 1);
     const Material drawn = document_.edited().materials[document_.material()].drawn();

@@ -20,7 +20,15 @@ constexpr double dermisThickness = 1000; // mm: as good as without an end
 template <typename Recipe, double Recipe::*member>
 Parameter<Recipe> row(const char* name, const char* label, const char* unit, double low, double high, bool logarithmic,
                       const char* toolTip) {
-    return {name, label, unit, low, high, logarithmic, 3, toolTip, [](const Recipe& recipe) { return recipe.*member; },
+    return {name,
+            label,
+            unit,
+            low,
+            high,
+            logarithmic,
+            3,
+            toolTip,
+            [](const Recipe& recipe) { return recipe.*member; },
             [](Recipe& recipe, double value) { recipe.*member = value; }};
 }
 
@@ -47,8 +55,7 @@ std::optional<Recipe> ask(QWidget* parent, const QString& title, std::span<const
 Material mixSkin(const SkinRecipe& recipe) {
     Material material{.name = "skin by its contents",
                       .description = "Skin by melanin and blood: two slabs, epidermis over dermis"};
-    const Slab epidermis =
-        makeSkinSlab({.melanin = recipe.melanin, .eumelanin = recipe.eumelanin}, recipe.epidermis);
+    const Slab epidermis = makeSkinSlab({.melanin = recipe.melanin, .eumelanin = recipe.eumelanin}, recipe.epidermis);
     const Slab dermis = makeSkinSlab(
         {.haemoglobin = recipe.haemoglobin, .oxygenation = recipe.oxygenation, .water = 0.65}, dermisThickness);
     material.roughness = 0.45;
@@ -72,7 +79,8 @@ std::optional<SkinRecipe> askForSkin(QWidget* parent) {
 }
 
 Material mixMedium(const MediumRecipe& recipe) {
-    Material material{.name = "medium", .description = "Burley's profile by colour and mean free path, as OpenPBR has it"};
+    Material material{.name = "medium",
+                      .description = "Burley's profile by colour and mean free path, as OpenPBR has it"};
     material.albedo = {recipe.red, recipe.green, recipe.blue};
     constexpr double leastRadius = 1e-4; // mm
     const Rgb radius{std::max(recipe.radius * recipe.radiusRed, leastRadius),

@@ -11,11 +11,11 @@ namespace nacre::view {
 
 /// Skin in two slabs, epidermis over a deep dermis.
 struct SkinRecipe {
-    double melanin = 0.04;          ///< [0, 1] share of the epidermis
-    double eumelanin = 0.7;         ///< [0, 1] share of the melanin
-    double haemoglobin = 0.03;      ///< [0, 1] share of the dermis: blood
-    double oxygenation = 0.75;      ///< [0, 1]
-    double epidermis = 0.1;         ///< [mm] thickness
+    double melanin = 0.04;     ///< [0, 1] share of the epidermis
+    double eumelanin = 0.7;    ///< [0, 1] share of the melanin
+    double haemoglobin = 0.03; ///< [0, 1] share of the dermis: blood
+    double oxygenation = 0.75; ///< [0, 1]
+    double epidermis = 0.1;    ///< [mm] thickness
 };
 Material mixSkin(const SkinRecipe& recipe);
 /// Asks in a dialogue; nothing where it is dismissed.
@@ -23,14 +23,14 @@ std::optional<SkinRecipe> askForSkin(QWidget* parent);
 
 /// A medium as OpenPBR tells it: colour, mean free path and its scale per channel, anisotropy.
 struct MediumRecipe {
-    double red = 0.8;             ///< [0, 1] diffuse albedo
+    double red = 0.8; ///< [0, 1] diffuse albedo
     double green = 0.6;
     double blue = 0.5;
-    double radius = 1;            ///< [mm] mean free path
-    double radiusRed = 1;         ///< [0, 1] of it
+    double radius = 1;    ///< [mm] mean free path
+    double radiusRed = 1; ///< [0, 1] of it
     double radiusGreen = 0.5;
     double radiusBlue = 0.25;
-    double anisotropy = 0;        ///< [-1, 1]
+    double anisotropy = 0; ///< [-1, 1]
 };
 Material mixMedium(const MediumRecipe& recipe);
 std::optional<MediumRecipe> askForMedium(QWidget* parent);

@@ -25,11 +25,10 @@ public:
         form->setContentsMargins(0, 0, 0, 0);
         form->setVerticalSpacing(3);
         for (const Parameter<Target>& parameter : parameters) {
-            auto* slider = new ParameterSlider(
-                QString::fromUtf8(parameter.name),
-                {parameter.low, parameter.high, parameter.logarithmic, parameter.decimals,
-                 QString::fromUtf8(parameter.unit)},
-                QString::fromUtf8(parameter.toolTip));
+            auto* slider = new ParameterSlider(QString::fromUtf8(parameter.name),
+                                               {parameter.low, parameter.high, parameter.logarithmic,
+                                                parameter.decimals, QString::fromUtf8(parameter.unit)},
+                                               QString::fromUtf8(parameter.toolTip));
             auto* label = new QLabel(QString::fromUtf8(parameter.label));
             label->setToolTip(QString::fromUtf8(parameter.toolTip));
             label->setBuddy(slider);

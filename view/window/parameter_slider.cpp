@@ -15,10 +15,7 @@ constexpr int fieldWidth = 108; // px: seven digits and a unit
 } // namespace
 
 ParameterSlider::ParameterSlider(const QString& name, const SliderRange& range, const QString& toolTip, QWidget* parent)
-    : QWidget(parent),
-      range_(range),
-      slider_(new QSlider(Qt::Horizontal, this)),
-      field_(new QDoubleSpinBox(this)) {
+    : QWidget(parent), range_(range), slider_(new QSlider(Qt::Horizontal, this)), field_(new QDoubleSpinBox(this)) {
     setObjectName(name);
     setToolTip(toolTip);
     setAccessibleName(name);

@@ -28,8 +28,9 @@ struct FlyKey {
     int key;
     glm::vec3 direction;
 };
-constexpr std::array flyKeys{FlyKey{Qt::Key_D, {1, 0, 0}}, FlyKey{Qt::Key_A, {-1, 0, 0}}, FlyKey{Qt::Key_E, {0, 1, 0}},
-                             FlyKey{Qt::Key_Q, {0, -1, 0}}, FlyKey{Qt::Key_W, {0, 0, 1}}, FlyKey{Qt::Key_S, {0, 0, -1}}};
+constexpr std::array flyKeys{FlyKey{Qt::Key_D, {1, 0, 0}}, FlyKey{Qt::Key_A, {-1, 0, 0}},
+                             FlyKey{Qt::Key_E, {0, 1, 0}}, FlyKey{Qt::Key_Q, {0, -1, 0}},
+                             FlyKey{Qt::Key_W, {0, 0, 1}}, FlyKey{Qt::Key_S, {0, 0, -1}}};
 
 bool isFlyKey(const QKeyEvent& event) {
     return event.modifiers() == Qt::NoModifier &&

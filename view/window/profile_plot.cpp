@@ -24,9 +24,8 @@ double edgeOf(const BankWeights& weights, int channel, double distance) {
         // Element k is the share that crosses k + ½ px; left of the edge it is what does not cross.
         const double at = std::max(0.0, std::abs(distance) - 0.5);
         const auto element = static_cast<std::size_t>(at);
-        const double inside = element + 1 < tail.size()
-                                  ? std::lerp(tail[element], tail[element + 1], at - double(element))
-                                  : 0.0;
+        const double inside =
+            element + 1 < tail.size() ? std::lerp(tail[element], tail[element + 1], at - double(element)) : 0.0;
         result += weights[static_cast<std::size_t>(kernel)][static_cast<std::size_t>(channel)] *
                   (distance >= 0 ? inside : 1 - inside);
     }
@@ -119,8 +118,7 @@ void ProfilePlot::paintEvent(QPaintEvent*) {
         const double mm = kind_ == PlotKind::EdgeResponse ? reach_ * (2 * share - 1) : reach_ * share;
         const double value = std::lerp(low_, high_, share);
         painter.drawText(QRectF(x - 40, area.bottom() + 2, 80, metrics.height()),
-                         i == lines ? Qt::AlignLeft | Qt::AlignHCenter : Qt::AlignHCenter,
-                         QString::number(mm, 'g', 2));
+                         i == lines ? Qt::AlignLeft | Qt::AlignHCenter : Qt::AlignHCenter, QString::number(mm, 'g', 2));
         painter.drawText(QRectF(0, y - metrics.height() / 2.0, left - 3, metrics.height()), Qt::AlignRight,
                          kind_ == PlotKind::Profile ? QString("1e%1").arg(value) : QString::number(value, 'g', 2));
     }

@@ -36,8 +36,8 @@ private:
     void sample(Curve& curve, const std::function<double(double)>& function) const;
 
     PlotKind kind_;
-    double reach_ = 1;       ///< mm
-    double low_ = 0;         ///< of the curves; powers of ten for the profile
+    double reach_ = 1; ///< mm
+    double low_ = 0;   ///< of the curves; powers of ten for the profile
     double high_ = 1;
     std::array<Curve, 3> curves_;
     std::array<Curve, 3> technique_; ///< of the edge response

@@ -1,10 +1,10 @@
 #include "view/window/script.hpp"
 
+#include "image/image_file.hpp"
 #include "nacre/files.hpp"
 #include "view/window/main_window.hpp"
 #include "view/window/material_panel.hpp"
 #include "view/window/parameter_slider.hpp"
-#include "image/image_file.hpp"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -189,7 +189,8 @@ QImage toImage(const Image& linear) {
     QImage result(static_cast<int>(linear.width), static_cast<int>(linear.height), QImage::Format_RGB32);
     for (int y = 0; y < result.height(); ++y) {
         for (int x = 0; x < result.width(); ++x) {
-            const std::span<const float> pixel = encoded.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+            const std::span<const float> pixel =
+                encoded.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
             const auto byte = [&](std::size_t channel) { return static_cast<int>(255 * pixel[channel] + 0.5f); };
             result.setPixel(x, y, qRgb(byte(0), byte(1), byte(2)));
         }
@@ -209,9 +210,9 @@ void takeScreenshot(MainWindow& window, const QJsonObject& step) {
             const QImage image = toImage(second.shown);
             const double divider = window.picture().divider();
             const QRectF from(image.width() * divider, 0, image.width() * (1 - divider), image.height());
-            painter.drawImage(QRectF(area.left() + area.width() * divider, area.top(), area.width() * (1 - divider),
-                                     area.height()),
-                              image, from);
+            painter.drawImage(
+                QRectF(area.left() + area.width() * divider, area.top(), area.width() * (1 - divider), area.height()),
+                image, from);
             painter.setPen(QPen(Qt::white, 2));
             const int x = area.left() + static_cast<int>(area.width() * divider);
             painter.drawLine(x, area.top(), x, area.bottom());
@@ -228,12 +229,22 @@ struct StepKind {
     const char* key;
     void (*run)(MainWindow&, const QJsonObject&);
 };
-constexpr std::array kinds{StepKind{"set", set},         StepKind{"choose", choose},     StepKind{"select", select},
-                           StepKind{"click", click},     StepKind{"action", act},        StepKind{"key", press},
-                           StepKind{"open", openFile},   StepKind{"panel", showPanel},   StepKind{"drag", drag},
-                           StepKind{"pick", pick},       StepKind{"size", resizeWindow}, StepKind{"wait", waitStill},
-                           StepKind{"saveMaterial", saveMaterial}, StepKind{"loadMaterial", loadMaterialFile},
-                           StepKind{"picture", savePicture}, StepKind{"screenshot", takeScreenshot}};
+constexpr std::array kinds{StepKind{"set", set},
+                           StepKind{"choose", choose},
+                           StepKind{"select", select},
+                           StepKind{"click", click},
+                           StepKind{"action", act},
+                           StepKind{"key", press},
+                           StepKind{"open", openFile},
+                           StepKind{"panel", showPanel},
+                           StepKind{"drag", drag},
+                           StepKind{"pick", pick},
+                           StepKind{"size", resizeWindow},
+                           StepKind{"wait", waitStill},
+                           StepKind{"saveMaterial", saveMaterial},
+                           StepKind{"loadMaterial", loadMaterialFile},
+                           StepKind{"picture", savePicture},
+                           StepKind{"screenshot", takeScreenshot}};
 
 void runStep(MainWindow& window, const QJsonObject& step) {
     for (const StepKind& kind : kinds) {

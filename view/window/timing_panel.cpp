@@ -110,13 +110,14 @@ void TimingPanel::add(const renderer::FrameReport& report, double processorMilli
     const std::uint64_t bytes =
         std::accumulate(report.memory.begin(), report.memory.end(), std::uint64_t{0},
                         [](std::uint64_t sum, const renderer::MemoryUse& use) { return sum + use.bytes; });
-    text_->setText(QString("Device %1 ms a frame, processor %2 ms. Device memory of a frame %3 MiB, of that the effect's "
-                           "intermediates %4 MiB. %5 % of the pixels have a subsurface material.")
-                       .arg(report.totalMicroseconds / 1e3, 0, 'f', 2)
-                       .arg(processorMilliseconds, 0, 'f', 2)
-                       .arg(double(bytes) / mebibyte, 0, 'f', 0)
-                       .arg(double(report.effectBytes) / mebibyte, 0, 'f', 1)
-                       .arg(100 * report.subsurfaceCoverage, 0, 'f', 0));
+    text_->setText(
+        QString("Device %1 ms a frame, processor %2 ms. Device memory of a frame %3 MiB, of that the effect's "
+                "intermediates %4 MiB. %5 % of the pixels have a subsurface material.")
+            .arg(report.totalMicroseconds / 1e3, 0, 'f', 2)
+            .arg(processorMilliseconds, 0, 'f', 2)
+            .arg(double(bytes) / mebibyte, 0, 'f', 0)
+            .arg(double(report.effectBytes) / mebibyte, 0, 'f', 1)
+            .arg(100 * report.subsurfaceCoverage, 0, 'f', 0));
 }
 
 } // namespace nacre::view
