@@ -147,6 +147,11 @@ void addView(CLI::App& app) {
     add("--shadow-map-size", options->shadowMapSize, "Texels a side, without a window; default 2048", "N");
     add("--device", options->device.name, "Number or part of the name, see `nacre devices`", "DEVICE");
     command->add_flag("--validation", options->device.validation, "Fail where the Vulkan validation layer complains");
+    command->footer(R"(Examples:
+  nacre view
+  nacre view model.glb --material skin
+  nacre view --headless --frames 600 --size 1920x1080
+  nacre view model.glb --turntable 36 -o turn)");
     command->callback([options, parser] {
         ViewOptions all = *options;
         static_cast<SceneOptions&>(all) = parser->finish();

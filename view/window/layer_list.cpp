@@ -1,6 +1,6 @@
 #include "view/window/layer_list.hpp"
 
-#include "view/model/parameters.hpp"
+#include "view/model/edit_parameters.hpp"
 
 #include <QHBoxLayout>
 #include <QPainter>

@@ -1,7 +1,7 @@
 // A form of sliders that a table of parameters makes.
 #pragma once
 
-#include "view/model/parameters.hpp"
+#include "view/model/edit_parameters.hpp"
 #include "view/window/parameter_slider.hpp"
 
 #include <QFormLayout>

@@ -1,4 +1,4 @@
-#include "view/model/parameters.hpp"
+#include "view/model/edit_parameters.hpp"
 
 #include <array>
 #include <cmath>
