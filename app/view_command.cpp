@@ -11,6 +11,7 @@
 
 #include <charconv>
 #include <iostream>
+#include <memory>
 
 namespace nacre::app {
 
@@ -24,7 +25,6 @@ struct ViewOptions : SceneOptions {
     bool headless = false;
     std::string frames;
     std::uint32_t turntable = 0; ///< 0: none
-    std::uint32_t pictureSamples = 16;
     std::filesystem::path output;
     std::uint32_t shadowMapSize = 2048;
 };
@@ -83,7 +83,7 @@ void runTurntable(const ViewOptions& options) {
     settings.width = options.width;
     settings.height = options.height;
     settings.shadowMapSize = options.shadowMapSize;
-    settings.samples = options.pictureSamples;
+    settings.samples = options.samples * options.samples;
     settings.folder = options.output;
     if (settings.folder.empty()) {
         throw UsageError("--turntable needs a folder: -o DIR");
@@ -99,7 +99,6 @@ void runTurntable(const ViewOptions& options) {
 
 void view(const ViewOptions& options) {
     requireRange(options.shadowMapSize, 16, 16384, "--shadow-map-size");
-    requireRange(options.pictureSamples, 1, 1024, "--picture-samples");
     if (options.turntable > 0) {
         runTurntable(options);
         return;
@@ -132,7 +131,7 @@ void addView(CLI::App& app) {
     const auto options = std::make_shared<ViewOptions>();
     const auto parser = std::make_shared<SceneOptionParser>();
     parser->addScene(*command);
-    parser->addPicture(*command, "not of the window; ");
+    parser->addPicture(*command, "of a turntable's pictures; ");
     parser->addLight(*command);
     parser->addCamera(*command);
     const auto add = [&](const char* name, auto& value, const char* description, const char* type) {
@@ -142,7 +141,6 @@ void addView(CLI::App& app) {
     command->add_flag("--headless", options->headless, "No window: draw frames and say what they take");
     add("--frames", options->frames, "Of --headless how many, default 120; of --turntable which: FIRST:LAST", "N|A:B");
     add("--turntable", options->turntable, "No window: N pictures from around the scene", "N");
-    add("--picture-samples", options->pictureSamples, "Samples a pixel of a turntable's pictures; default 16", "N");
     add("-o,--output", options->output, "The folder for a turntable's pictures", "DIR");
     add("--shadow-map-size", options->shadowMapSize, "Texels a side, without a window; default 2048", "N");
     add("--device", options->device.name, "Number or part of the name, see `nacre devices`", "DEVICE");

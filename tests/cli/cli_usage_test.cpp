@@ -167,9 +167,10 @@ TEST_F(UsageTest, HelpOfTheOtherCommands) {
 }
 
 TEST_F(UsageTest, HelpOfEveryCommandHasExamplesOfIt) {
-    for (const std::string& command : std::vector<std::string>{
-             "render", "view", "devices", "material", "material list", "material show", "material check", "material fit",
-             "bench", "bench thesis", "bench sweep", "bench pareto", "bench diff", "bench report", "bench markdown"}) {
+    for (const std::string& command :
+         std::vector<std::string>{"render", "view", "devices", "material", "material list", "material show",
+                                  "material check", "material fit", "bench", "bench thesis", "bench sweep",
+                                  "bench pareto", "bench diff", "bench report", "bench markdown"}) {
         std::istringstream words(command);
         std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
         arguments.emplace_back("--help");

@@ -52,7 +52,7 @@ protected:
     void SetUp() override { writeText(folder() / "cube.obj", cubeObj); }
 
     Outcome runScript(const Json& steps, const Environment& platform) const {
-        writeText(folder() / "script.json", Json{{"size", {560, 420}}, {"steps", steps}}.dump());
+        writeText(folder() / "script.json", Json{{"size", {500, 300}}, {"samples", 2}, {"steps", steps}}.dump());
         Environment environment = platform;
         for (const char* name : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR"}) {
             environment.emplace_back(name, folder().string());
@@ -78,9 +78,8 @@ TEST_F(ViewTest, HeadlessSaysWhatFramesTakeWithLightsStillAndMoving) {
 
 TEST_F(ViewTest, ATurntablesFrameIsTheSameWhoeverDrawsIt) {
     const auto turntable = [&](const std::string& frames, const std::string& output) {
-        const Outcome outcome =
-            run({"view", "cube.obj", "--material", "wax", "--turntable", "3", "--frames", frames, "-o", output,
-                 "--size", "32x18", "--picture-samples", "2", "--shadow-map-size", "64"});
+        const Outcome outcome = run({"view", "cube.obj", "--material", "wax", "--turntable", "3", "--frames", frames,
+                                     "-o", output, "--size", "32x18", "--samples", "2", "--shadow-map-size", "64"});
         EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
     };
     turntable("0:2", "all");

@@ -11,6 +11,7 @@
 
 #include "trace/geometry.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 

@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace nacre::view {
 

@@ -179,6 +179,7 @@ void MainWindow::makeLoop() {
         settings.shadowMapSize = softwareShadowMapSize;
         settings.stillSamples = softwareSamples;
     }
+    settings.stillSamples = stillSamples_.value_or(settings.stillSamples);
     settings.lights = mostLights;
     settings.shadowLayers = mostShadowLayers;
     loop_ = std::make_unique<PictureLoop>(device_, drawn_, settings);

@@ -52,6 +52,8 @@ public:
     MaterialPanel& materialPanel() { return *material_; }
     /// Faults are only noted, and nothing asks: for scripts.
     void setQuiet(bool quiet) { quiet_ = quiet; }
+    /// Samples of a picture at rest, of scenes that are opened from now on; nothing: what suits the device.
+    void setStillSamples(std::optional<std::uint32_t> samples) { stillSamples_ = samples; }
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -123,6 +125,7 @@ private:
     QLabel* deviceStatus_ = nullptr;
     std::array<SideSettings, renderer::Accumulation::sideCount> sides_; ///< as the loop has them
     QString lastFault_;
+    std::optional<std::uint32_t> stillSamples_;
     bool quiet_ = false;
     bool opening_ = false;
     bool measured_ = false;

@@ -49,6 +49,7 @@ int runWindow(const RunSettings& settings) {
     if (!settings.script.empty()) {
         const Script script(settings.script);
         window.setQuiet(true);
+        window.setStillSamples(script.samples());
         window.resize(script.windowSize().value_or(window.size()));
         window.show();
         QApplication::processEvents();

@@ -278,6 +278,7 @@ Script::Script(const std::filesystem::path& file) : file_(file) {
         throw FileError(file.string() + ": 'steps' must be a list");
     }
     static_cast<void>(windowSize());
+    static_cast<void>(samples());
 }
 
 std::optional<QSize> Script::windowSize() const {
@@ -291,11 +292,22 @@ std::optional<QSize> Script::windowSize() const {
     return QSize(size[0].toInt(), size[1].toInt());
 }
 
+std::optional<std::uint32_t> Script::samples() const {
+    if (!content_.contains("samples")) {
+        return std::nullopt;
+    }
+    const int samples = content_["samples"].toInt();
+    if (samples < 1) {
+        throw FileError(file_.string() + ": 'samples' must be a number of at least 1");
+    }
+    return static_cast<std::uint32_t>(samples);
+}
+
 void Script::run(MainWindow& window) const {
-    const QJsonArray steps = content_["steps"].toArray();
-    for (qsizetype i = 0; i < steps.size(); ++i) {
+    const QJsonArray rows = content_["steps"].toArray();
+    for (qsizetype i = 0; i < rows.size(); ++i) {
         try {
-            runStep(window, steps[i].toObject());
+            runStep(window, rows[i].toObject());
         } catch (const StepFault& error) {
             throw std::runtime_error(file_.string() + ": steps[" + std::to_string(i) + "]: " + error.what());
         }

@@ -4,6 +4,7 @@
 #include <QJsonObject>
 #include <QSize>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -11,14 +12,15 @@ namespace nacre::view {
 
 class MainWindow;
 
-/// {"size": [WIDTH, HEIGHT], "steps": [STEP, ...]}: the window's size, px, which may be left out, and steps, each an
-/// object with one of the keys of docs/viewer.md.
+/// {"size": [WIDTH, HEIGHT], "samples": N, "steps": [STEP, ...]}: the window's size, px, and the samples of a picture
+/// at rest, which may be left out, and steps, each an object with one of the keys of docs/viewer.md.
 class Script {
 public:
     /// Throws FileError naming what the file lacks.
     explicit Script(const std::filesystem::path& file);
 
     std::optional<QSize> windowSize() const;
+    std::optional<std::uint32_t> samples() const;
     /// Throws std::runtime_error with a sentence that names the file, the step and what is wrong with it.
     void run(MainWindow& window) const;
 
