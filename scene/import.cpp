@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iomanip>
+#include <sstream>
 
 namespace nacre::scene {
 namespace {
@@ -46,6 +48,16 @@ Format formatOf(const std::filesystem::path& file, std::span<const std::uint8_t>
     return Format::Assimp;
 }
 
+/// What a camera's position on the command line is relative to.
+void tellOrigin(Scene& scene, const std::filesystem::path& file) {
+    if (scene.origin != glm::dvec3(0)) {
+        std::ostringstream note;
+        note << file.string() << ": stands far from its origin and is moved there: (0, 0, 0) is its (" << std::fixed
+             << std::setprecision(3) << scene.origin.x << ", " << scene.origin.y << ", " << scene.origin.z << ")";
+        scene.notes.push_back(note.str());
+    }
+}
+
 Scene readModel(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, Format format) {
     return format == Format::Gltf ? loadGltf(file, bytes) : loadWithAssimp(file);
 }
@@ -67,6 +79,7 @@ Scene load(const std::filesystem::path& file) {
     Scene scene = format == Format::SceneFile ? readSceneFile(file, bytes) : readModel(file, bytes, format);
     if (format != Format::SceneFile) {
         fitLights(scene);
+        tellOrigin(scene, file);
     }
     addMissingViewAndLights(scene);
     return scene;

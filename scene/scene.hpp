@@ -136,6 +136,8 @@ struct Scene {
     std::vector<Camera> cameras; ///< the first is the default
     Environment environment;
     double metersPerUnit = 1;
+    /// [units] Where the scene's origin is in the coordinates of its file, of a model that stands far from its own.
+    glm::dvec3 origin{0};
     float exposure = 1;
     /// Files that were read for it beside the one that was asked for: no output may replace them.
     std::vector<std::string> inputs;

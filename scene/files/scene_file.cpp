@@ -1,6 +1,7 @@
 #include "scene/files/scene_file.hpp"
 
 #include "image/image_file.hpp"
+#include "scene/default_view.hpp"
 #include "scene/files/scene_file_models.hpp"
 
 #include <algorithm>
@@ -41,6 +42,8 @@ public:
         }
         if (!lights.empty()) {
             scene_.lights = std::move(lights);
+        } else {
+            fitLights(scene_); // as where a model is loaded by itself
         }
         if (!cameras.empty()) {
             scene_.cameras = std::move(cameras);

@@ -30,10 +30,10 @@ glm::vec3 readScale(SceneFileObject& model) {
 }
 
 /// translate · rotate about z · about y · about x · scale
-glm::mat4 readTransform(SceneFileObject& model) {
-    const glm::vec3 scale = readScale(model);
-    const glm::vec3 angles = model.triple("rotate", glm::vec3(0)) * degree;
-    glm::mat4 transform = glm::translate(glm::mat4(1), model.triple("translate", glm::vec3(0)));
+glm::dmat4 readTransform(SceneFileObject& model) {
+    const glm::dvec3 scale = readScale(model);
+    const glm::dvec3 angles = model.triple("rotate", glm::vec3(0)) * degree;
+    glm::dmat4 transform = glm::translate(glm::dmat4(1), glm::dvec3(model.triple("translate", glm::vec3(0))));
     transform = glm::rotate(transform, angles.z, {0, 0, 1});
     transform = glm::rotate(transform, angles.y, {0, 1, 0});
     transform = glm::rotate(transform, angles.x, {1, 0, 0});
@@ -151,9 +151,11 @@ Scene loadNamed(const SceneFileObject& object, const std::string& source) {
 }
 
 /// Moves instances, lights and cameras, and puts `name` before the instances' own.
-void place(Scene& model, const glm::mat4& transform, const std::string& name) {
+void place(Scene& model, const glm::dmat4& fromFile, const std::string& name) {
+    const glm::dmat4 fromOrigin = glm::translate(fromFile, model.origin);
+    const glm::mat4 transform(fromOrigin);
     for (Instance& instance : model.instances) {
-        instance.transform = transform * instance.transform;
+        instance.transform = fromOrigin * glm::dmat4(instance.transform);
         instance.name = name.empty() ? instance.name : name + (instance.name.empty() ? "" : "/" + instance.name);
     }
     const float length = std::cbrt(std::abs(glm::determinant(glm::mat3(transform))));
@@ -205,11 +207,11 @@ void SceneFileModels::addModel(SceneFileObject& object) {
     assignMaterials(object, model);
     dropUnused(model);
     const auto unitScale = static_cast<float>(model.metersPerUnit / scene_.metersPerUnit);
-    const glm::mat4 transform = readTransform(object) * glm::scale(glm::mat4(1), glm::vec3(unitScale));
+    const glm::dmat4 transform = readTransform(object) * glm::scale(glm::dmat4(1), glm::dvec3(unitScale));
     const std::string name = object.text("name");
     object.finish();
     // What is placed again as it is here needs no more than its instances, lights and cameras.
-    Placed placed{model.instances, model.lights, model.cameras, unitScale};
+    Placed placed{model.instances, model.lights, model.cameras, unitScale, model.origin};
     for (Instance& instance : placed.instances) {
         instance.mesh += static_cast<std::uint32_t>(scene_.meshes.size());
     }
@@ -220,7 +222,7 @@ void SceneFileModels::addModel(SceneFileObject& object) {
 
 /// Places a model that is there already, with the looks it has.
 void SceneFileModels::placeAgain(SceneFileObject& object, const Placed& placed) {
-    const glm::mat4 transform = readTransform(object) * glm::scale(glm::mat4(1), glm::vec3(placed.unitScale));
+    const glm::dmat4 transform = readTransform(object) * glm::scale(glm::dmat4(1), glm::dvec3(placed.unitScale));
     const std::string name = object.text("name");
     for (const char* known : {"model", "units", "instances", "material", "materials", "surface"}) {
         object.member(known);
@@ -230,6 +232,7 @@ void SceneFileModels::placeAgain(SceneFileObject& object, const Placed& placed) 
     again.instances = placed.instances;
     again.lights = placed.lights;
     again.cameras = placed.cameras;
+    again.origin = placed.origin;
     place(again, transform, name);
     takeOver(std::move(again));
 }
@@ -256,7 +259,7 @@ Scene SceneFileModels::take(const SceneFileObject& object, const std::string& so
     return --placements_[key] == 0 ? std::move(model->second) : model->second;
 }
 
-void SceneFileModels::append(Scene model, const glm::mat4& transform, const std::string& name) {
+void SceneFileModels::append(Scene model, const glm::dmat4& transform, const std::string& name) {
     const auto shift = [](std::uint32_t& index, std::size_t by) {
         index = index == none ? none : index + static_cast<std::uint32_t>(by);
     };

@@ -25,13 +25,14 @@ private:
         std::vector<Light> lights;
         std::vector<Camera> cameras;
         float unitScale = 1;
+        glm::dvec3 origin{0}; ///< the model's Scene::origin
     };
 
     void addModel(SceneFileObject& object);
     void placeAgain(SceneFileObject& object, const Placed& placed);
     void charge(const Scene& model, const std::string& key);
     Scene take(const SceneFileObject& object, const std::string& source, const std::string& key);
-    void append(Scene model, const glm::mat4& transform, const std::string& name);
+    void append(Scene model, const glm::dmat4& transform, const std::string& name);
     void takeOver(Scene model);
 
     Scene& scene_;

@@ -7,6 +7,9 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <limits>
 #include <map>
 
 namespace nacre::scene {
@@ -16,15 +19,15 @@ std::string nodeField(int node) {
     return "nodes[" + std::to_string(node) + "]";
 }
 
-glm::mat4 localTransform(const GltfFile& file, int index) {
+glm::dmat4 localTransform(const GltfFile& file, int index) {
     const tinygltf::Node& node = file.model.nodes[static_cast<std::size_t>(index)];
     const std::string field = nodeField(index);
-    glm::mat4 transform(1);
+    glm::dmat4 transform(1);
     if (!node.matrix.empty()) {
         if (node.matrix.size() != 16) {
             failGltf(file, field + ".matrix must be an array of 16 numbers");
         }
-        transform = glm::mat4(glm::make_mat4(node.matrix.data()));
+        transform = glm::make_mat4(node.matrix.data());
     } else {
         glm::quat rotation(1, 0, 0, 0);
         if (!node.rotation.empty()) {
@@ -34,11 +37,14 @@ glm::mat4 localTransform(const GltfFile& file, int index) {
             const auto part = [&](std::size_t i) { return static_cast<float>(node.rotation[i]); };
             rotation = glm::normalize(glm::quat(part(3), part(0), part(1), part(2)));
         }
-        transform[3] = glm::vec4(vectorOf(file, node.translation, glm::vec3(0), field + ".translation"), 1);
+        vectorOf(file, node.translation, glm::vec3(0), field + ".translation"); // refuses what is none
+        if (!node.translation.empty()) {
+            transform[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1);
+        }
         const glm::vec3 scale = vectorOf(file, node.scale, glm::vec3(1), field + ".scale");
         const glm::mat3 linear = glm::mat3_cast(rotation) * glm::mat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
         for (int column = 0; column < 3; ++column) {
-            transform[column] = glm::vec4(linear[column], 0);
+            transform[column] = glm::dvec4(linear[column], 0);
         }
     }
     for (int i = 0; i < 16; ++i) {
@@ -48,6 +54,9 @@ glm::mat4 localTransform(const GltfFile& file, int index) {
     }
     return transform;
 }
+
+/// [m] Nodes that stand farther from the file's origin are moved to it: a float's step is then 0.1 mm.
+constexpr double farOrigin = 1000;
 
 bool isVisible(const GltfFile& file, const tinygltf::Node& node, const std::string& field) {
     const GltfObject extension(file, node.extensions, "KHR_node_visibility", field);
@@ -102,8 +111,8 @@ private:
 
     /// World transforms of all nodes of the scene, parents first.
     void placeNodes() {
-        transforms_.assign(file_.model.nodes.size(), glm::mat4(1));
         hidden_.assign(file_.model.nodes.size(), false);
+        std::vector<glm::dmat4> transforms(file_.model.nodes.size(), glm::dmat4(1));
         std::vector<bool> reached(file_.model.nodes.size());
         std::vector<std::pair<int, int>> stack; // node, parent
         const std::vector<int> first = roots();
@@ -119,9 +128,9 @@ private:
                 failGltf(file_, nodeField(index) + " is reached twice: nodes must form a tree");
             }
             reached[at] = true;
-            transforms_[at] = localTransform(file_, index);
+            transforms[at] = localTransform(file_, index);
             if (parent >= 0) {
-                transforms_[at] = transforms_[static_cast<std::size_t>(parent)] * transforms_[at];
+                transforms[at] = transforms[static_cast<std::size_t>(parent)] * transforms[at];
             }
             order_.push_back(index);
             // KHR_node_visibility: what is hidden hides its children.
@@ -134,6 +143,28 @@ private:
                 stack.emplace_back(*child, index);
             }
         }
+        moveToOrigin(transforms);
+    }
+
+    /// Floats are too coarse far from the origin. What stands there, as georeferenced models do, is moved while its
+    /// transforms are doubles.
+    void moveToOrigin(std::vector<glm::dmat4>& transforms) {
+        glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+        for (const int index : order_) {
+            if (node(index).mesh >= 0) {
+                const glm::dvec3 place(transforms[static_cast<std::size_t>(index)][3]);
+                low = glm::min(low, place);
+                high = glm::max(high, place);
+            }
+        }
+        const glm::dvec3 middle = 0.5 * (low + high);
+        if (low.x <= high.x && glm::length(middle) > std::max(farOrigin, 4 * glm::length(high - low))) {
+            scene_.origin = middle;
+            for (glm::dmat4& transform : transforms) {
+                transform[3] -= glm::dvec4(middle, 0);
+            }
+        }
+        transforms_.assign(transforms.begin(), transforms.end());
     }
 
     void addNode(int index) {

@@ -52,6 +52,29 @@ TEST(Gltf, PlacesNodesInTheirHierarchy) {
     expectVec3(box.high, {10, 2, 0});
 }
 
+// Floats have steps of centimetres and metres there.
+TEST(Gltf, MovesWhatIsFarToTheOrigin) {
+    for (const double distance : {5e5, 6.378e6}) {
+        GltfBuilder builder;
+        builder.setSquare();
+        const double x = distance + 0.125;
+        builder.json["nodes"] = {{{"children", {1, 2, 3}}, {"translation", {x, 0, -distance}}},
+                                 {{"mesh", 0}, {"translation", {0.01, 0, 0}}},
+                                 {{"mesh", 0}, {"translation", {-0.01, 0, 0}}},
+                                 {{"camera", 0}, {"translation", {0, 0, 5}}}};
+        builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+        const Scene scene = builder.load();
+        EXPECT_EQ(scene.origin, glm::dvec3(x, 0, -distance));
+        expectVec3(bounds(scene).low, {-0.01f, 0, 0});
+        expectVec3(bounds(scene).high, {1.01f, 1, 0});
+        expectVec3(scene.cameras.at(0).position, {0, 0, 5});
+    }
+    GltfBuilder near;
+    near.setSquare();
+    near.json["nodes"][0]["translation"] = {900, 0, 0};
+    EXPECT_EQ(near.load().origin, glm::dvec3(0));
+}
+
 TEST(Gltf, UnrollsStripsAndFans) {
     for (const int mode : {5, 6}) {
         GltfBuilder builder;

@@ -3,6 +3,7 @@
 
 #include "image/image_file.hpp"
 #include "scene/import.hpp"
+#include "tests/support/gltf_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -136,6 +137,39 @@ TEST_F(SceneFile, FillsInWhatIsMissing) {
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.lights.size(), 3u);
     EXPECT_FALSE(scene.environment.image.has_value());
+}
+
+/// A square at (10⁶, 0, 0) under a light of 50,000 lux.
+void writeFarAndBright(const fs::path& file) {
+    nacre::test::GltfBuilder builder;
+    builder.setSquare();
+    builder.json["nodes"][0]["translation"] = {1e6, 0, 0};
+    builder.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"intensity", 50000}}};
+    const std::vector<std::uint8_t> bytes = builder.glb();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST_F(SceneFile, GivesLightsOfModelsTheStrengthTheyHaveAlone) {
+    writeFarAndBright(folder / "bright.glb");
+    Json json = minimal();
+    json["models"][0]["model"] = "bright.glb";
+    EXPECT_FLOAT_EQ(read(json).lights.at(0).intensity, load(folder / "bright.glb").lights.at(0).intensity);
+    EXPECT_FLOAT_EQ(read(json).lights.at(0).intensity, std::numbers::pi_v<float>);
+    json["lights"] = {{{"type", "directional"}, {"direction", {0, 0, -1}}, {"intensity", 50000}}};
+    EXPECT_FLOAT_EQ(read(json).lights.at(0).intensity, 50000); // what the scene file says is meant
+}
+
+TEST_F(SceneFile, PlacesFarModelsWhereTheyAre) {
+    writeFarAndBright(folder / "far.glb");
+    Json json = minimal();
+    json["models"][0]["model"] = "far.glb";
+    EXPECT_EQ(bounds(read(json)).low, glm::vec3(1e6f, 0, 0));
+    json["models"][0]["translate"] = {-1e6, 0, 0};
+    EXPECT_EQ(bounds(read(json)).low, glm::vec3(0));
+    EXPECT_EQ(bounds(read(json)).high, glm::vec3(1, 1, 0));
 }
 
 TEST_F(SceneFile, GivesMaterialsByNameFileValueAndNull) {
