@@ -17,7 +17,7 @@ namespace nacre::view {
 namespace {
 
 constexpr std::uint32_t warmUpFrames = 3; // shadow maps, and what drivers do at first
-constexpr float turn = 2 * std::numbers::pi_v<float>;
+constexpr float wholeTurn = 2 * std::numbers::pi_v<float>;
 constexpr std::chrono::microseconds pause{50}; // until a busy device is asked again
 
 bool isEffect(const std::string& pass) {
@@ -104,11 +104,11 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
     Times times;
     scene::Camera camera = scene.cameras.at(0);
     const auto draw = [&](std::uint32_t frame) {
-        orbit(camera, {turn / static_cast<float>(settings.frames), 0});
+        orbit(camera, {wholeTurn / static_cast<float>(settings.frames), 0});
         loop.setCamera(camera);
         if (lightsMove) {
             loop.setLights(
-                turnedLights(scene.lights, turn * static_cast<float>(frame) / static_cast<float>(settings.frames)));
+                turnedLights(scene.lights, wholeTurn * static_cast<float>(frame) / static_cast<float>(settings.frames)));
         }
         drawOne(loop);
     };
@@ -169,7 +169,7 @@ void drawTurntable(renderer::Device& device, const scene::Scene& scene, const Tu
     PictureLoop loop(device, scene, forLoop);
     for (std::uint32_t frame = settings.first; frame <= settings.last; ++frame) {
         scene::Camera camera = scene.cameras.at(0);
-        orbit(camera, {turn * static_cast<float>(frame) / static_cast<float>(settings.count), 0});
+        orbit(camera, {wholeTurn * static_cast<float>(frame) / static_cast<float>(settings.count), 0});
         loop.setCamera(camera);
         while (!loop.isConverged()) {
             drawOne(loop);
