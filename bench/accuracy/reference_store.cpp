@@ -2,7 +2,8 @@
 
 #include "image/image_file.hpp"
 #include "reference/checkpoint.hpp"
-#include "reference/fingerprint.hpp"
+#include "trace/fingerprint.hpp"
+#include "trace/work_file.hpp"
 
 #include <chrono>
 #include <utility>
@@ -16,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds saveInterval{30};
 
 std::string printOf(const Reference& reference) {
-    reference::Fingerprint print;
+    trace::Fingerprint print;
     for (const auto& [name, value] : reference.identity()) {
         print.add(std::as_bytes(std::span(name)));
         print.add(std::as_bytes(std::span(value)));
@@ -26,15 +27,15 @@ std::string printOf(const Reference& reference) {
 
 void save(const std::filesystem::path& picture, const Reference& reference) {
     const reference::Film& film = reference.film();
-    reference::saveCheckpoint(reference::checkpointOf(picture), {reference.identity(), {}, film});
+    reference::saveCheckpoint(trace::checkpointOf(picture), {reference.identity(), {}, film});
     writeExr(picture, {film.width, film.height, reference::channelNames(), reference::channelValues(film)});
 }
 
 void resume(const std::filesystem::path& picture, Reference& reference) {
-    const std::filesystem::path file = reference::checkpointOf(picture);
+    const std::filesystem::path file = trace::checkpointOf(picture);
     if (std::filesystem::exists(file)) {
         reference::Checkpoint checkpoint = reference::loadCheckpoint(file);
-        reference::requireSameIdentity(file, checkpoint, reference.identity());
+        trace::requireSameIdentity(file, checkpoint.identity, reference.identity());
         reference.resume(std::move(checkpoint.film));
     }
 }

@@ -3,6 +3,7 @@
 // meets.
 #include "nacre/profile.hpp"
 #include "tests/gpu/support/effect.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 
 #include <algorithm>
 #include <cmath>
