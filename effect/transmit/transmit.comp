@@ -235,9 +235,11 @@ bool asksMore(vec3 transmittance) {
     return any(greaterThan(transmittance, vec3(leastAsked))) && !hasFlag(flagThesisTransmittance);
 }
 
-// [0, 1] Whether the map can tell how thick a body is: its texels are smaller than the profile is wide.
-float certaintyOf(Receiver receiver, ShadowPoint point) {
-    return clamp(2.0 - 2.0 * point.texelSize * view.mmPerUnit / reachOf(receiver.material), 0.0, 1.0);
+// [0, 1] Whether the map can tell how thick a body is: its texels are smaller than the profile is wide, or what they say lies
+// no farther from the receiver's plane. `deviation`: mm, root mean square.
+float certaintyOf(Receiver receiver, ShadowPoint point, float deviation) {
+    float least = min(point.texelSize * view.mmPerUnit, deviation);
+    return clamp(2.0 - 2.0 * least / reachOf(receiver.material), 0.0, 1.0);
 }
 
 // [mm] How far towards the light the receiver's own body can be, as far as it is known. What is farther is another body.
@@ -273,6 +275,10 @@ Entry entryOf(Receiver receiver, mat2x3 steps, vec3 toLight, vec2 change, float 
     return Entry(normal, max(dot(normal, toLight), 0.01), -dot(normal, receiver.normal), thickness);
 }
 
+vec4 lengths(vec4 x, vec4 y, vec4 z, float w) {
+    return sqrt(x * x + y * y + z * z + w * w);
+}
+
 // Transmittance over 4x4 points of the entry surface that are a spread apart. What they say is how much nearer or farther
 // than the entry's plane the surface is under each: at a body's edge there is none. `least`: mm, see wideFrom.
 vec3 wideTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, Entry entry, vec3 toLight,
@@ -299,13 +305,15 @@ vec3 wideTransmittance(LightParameters light, Receiver receiver, ShadowPoint poi
     mat4 thickness;
     for (int row = 0; row < 4; ++row) {
         float y = rows[row] + 0.5 - texel.y;
-        vec4 excess;
-        for (int column = 0; column < 4; ++column) {
-            vec3 across = x[column] * acrossX + y * acrossY;
-            vec3 inPlane = across - dot(across, entry.normal) * slope * toLight;
-            vec3 way = toFoot + across + (depth - stored[row][column] * range) * toLight;
-            excess[column] = length(way) - sqrt(distance * distance + dot(inPlane, inPlane));
-        }
+        vec4 along = depth - stored[row] * range;
+        vec4 acrossOnX = x * acrossX.x + y * acrossY.x;
+        vec4 acrossOnY = x * acrossX.y + y * acrossY.y;
+        vec4 acrossOnZ = x * acrossX.z + y * acrossY.z;
+        vec4 lean = -slope * (acrossOnX * entry.normal.x + acrossOnY * entry.normal.y + acrossOnZ * entry.normal.z);
+        vec4 excess = lengths(toFoot.x + acrossOnX + along * toLight.x, toFoot.y + acrossOnY + along * toLight.y,
+                              toFoot.z + acrossOnZ + along * toLight.z, 0.0) -
+                      lengths(acrossOnX + lean * toLight.x, acrossOnY + lean * toLight.y, acrossOnZ + lean * toLight.z,
+                              distance);
         thickness[row] = mix(max(excess + least, 0.0), vec4(opaque), vec4(lessThan(stored[row], vec4(0.0))));
     }
     return transmittance(receiver.material, thickness, columnWeights, rowWeights);
@@ -326,15 +334,20 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps, x, y);
     float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
     float range = light.direction.w * view.mmPerUnit;
-    float certainty = certaintyOf(receiver, point);
     float farthest = farthestOf(receiver, point);
     vec2 middle = vec2(dot(x, columnWeights), dot(y, rowWeights));
     vec4 fromMiddle = columnWeights * (x - middle.x);
-    vec3 moments = vec3(0.0); // of thickness with x, y and 1
     mat4 thickness;
+    vec2 told = vec2(0.0); // mean and mean square
     for (int i = 0; i < 4; ++i) {
         vec4 depths = plane.constant + plane.slope * y[i] + (plane.square[i] + removed);
-        thickness[i] = ownThickness(receiver, depths - abs(stored[i]) * range, stored[i], certainty, farthest);
+        thickness[i] = depths - abs(stored[i]) * range;
+        told += rowWeights[i] * vec2(dot(thickness[i], columnWeights), dot(thickness[i] * thickness[i], columnWeights));
+    }
+    float certainty = certaintyOf(receiver, point, sqrt(told.y));
+    vec3 moments = vec3(0.0); // of thickness with x, y and 1
+    for (int i = 0; i < 4; ++i) {
+        thickness[i] = ownThickness(receiver, thickness[i], stored[i], certainty, farthest);
         vec4 finite = min(thickness[i], reachOf(receiver.material));
         float row = rowWeights[i] * dot(finite, columnWeights);
         moments += vec3(rowWeights[i] * dot(finite, fromMiddle), (y[i] - middle.y) * row, row);
@@ -349,16 +362,19 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     vec3 through = transmittance(receiver.material, thickness * across, columnWeights, rowWeights);
     through *= 0.5 + 0.5 * entry.opposite; // the share of the entry's plane that is not the receiver's own side
     float wanted = wideSpacing * tables[receiver.material].spread / (point.texelSize * view.mmPerUnit);
-    for (bool wide = wanted >= 1.0 && asksMore(through); wide; wide = false) {
-        float spacing = exp2(floor(log2(wanted) + 0.5)); // the same for all receivers around: the points stay where they are
+    bool isThere = told.x > -bodyTexels * point.texelSize * view.mmPerUnit; // else the map has nothing before the receiver
+    for (bool wide = wanted >= 1.0 && isThere && asksMore(through); wide; wide = false) {
+        // The same for all receivers around, so that the points stay where they are.
+        float spacing = light.kind == lightDirectional ? wanted : exp2(floor(log2(wanted) + 0.5));
         float distance = entry.thickness * across;
         float least = length(vec2(distance, wideFrom * tables[receiver.material].spread));
         vec3 share = transmittance(receiver.material, least) / max(transmittance(receiver.material, distance), 1e-6);
         vec3 around = wideTransmittance(light, receiver, point, entry, toLight, entry.thickness * entry.cosine, least, spacing);
-        through = through * (1.0 - share) + around * clamp(1.0 + entry.opposite, 0.0, 1.0);
+        float facing = clamp(1.0 + entry.opposite, 0.0, 1.0);
+        through = through * (1.0 - share) + around * (facing * facing);
     }
-    float told = receiver.authored > 0.0 ? 1.0 : certainty;
-    return vec4(through * (entry.cosine * told), entry.thickness);
+    float known = receiver.authored > 0.0 ? 1.0 : certainty;
+    return vec4(through * (entry.cosine * known), entry.thickness);
 }
 
 // The pixel that shows a view-space position, mm.
