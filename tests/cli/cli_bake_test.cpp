@@ -1,5 +1,5 @@
 // `nacre bake thickness` as a user runs it: textures, meshes, reports, and what it refuses. Needs no device.
-#include "command.hpp"
+#include "running_nacre.hpp"
 #include "image/image_file.hpp"
 #include "scene/import.hpp"
 #include "schema.hpp"

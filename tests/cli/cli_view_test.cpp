@@ -1,5 +1,5 @@
 // `nacre view`: frames without a window, turntables, and scripts that drive the window.
-#include "command.hpp"
+#include "running_nacre.hpp"
 
 #include <nlohmann/json.hpp>
 
