@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace nacre::tests {
 namespace {
 
-constexpr double leastFacing = 0.02; // cosine between ray and normal: at most 50 times a facing pixel's area
+constexpr int nearField = 3;  // px within which R is integrated over the pixel
+constexpr int subSamples = 6; // per axis and near pixel
+constexpr double reachShare = 0.9995;
 
 struct Slope {
     double x = 0; // mm of depth per px
@@ -21,7 +22,7 @@ struct Slope {
 // The profile in a table over √r, where even Burley's pole at 0 is tame enough for linear interpolation.
 class RadialTable {
 public:
-    RadialTable(const Profile& profile, double reach) : reach_(reach) {
+    explicit RadialTable(const Profile& profile) : reach_(profile.quantileRadius(reachShare)) {
         for (int i = 0; i <= size; ++i) {
             const double root = std::max(i, 1) / static_cast<double>(size);
             for (int channel = 0; channel < 3; ++channel) {
@@ -52,14 +53,13 @@ private:
 
 class Reference {
 public:
-    Reference(const ScatterScene& scene, const ScatterReferenceSettings& settings)
-        : scene_(scene), settings_(settings) {
+    explicit Reference(const ScatterScene& scene) : scene_(scene) {
         for (const auto& profile : scene.profiles) {
-            tables_.emplace_back(*profile, profile->quantileRadius(settings.reachShare));
+            tables_.emplace_back(*profile);
         }
         for (int y = 0; y < scene.height; ++y) {
             for (int x = 0; x < scene.width; ++x) {
-                slopes_.push_back(settings.patchesOfBrute ? patchSlope(x, y) : slope(x, y));
+                slopes_.push_back(slope(x, y));
             }
         }
     }
@@ -69,9 +69,7 @@ public:
         const int material = scene_.materialId[centre] - 1;
         const RadialTable& table = tables_[material];
         const double z = scene_.depth[centre];
-        // Pixels per radius where the surface is nearest to the camera within it.
-        const double nearest = std::max(z - table.reach(), 0.5 * z);
-        const int radius = static_cast<int>(std::ceil(table.reach() * scene_.focalLength / nearest)) + 1;
+        const int radius = static_cast<int>(std::ceil(table.reach() * scene_.focalLength / z)) + 1;
         Rgb sum{};
         Rgb weightSum{};
         for (int dy = -radius; dy <= radius; ++dy) {
@@ -108,62 +106,27 @@ private:
         return {n[0] * scale, n[1] * scale};
     }
 
-    // How z changes towards a neighbour, per step along the axis; nothing where there is no surface.
-    std::optional<double> depthDifference(int x, int y, int stepX, int stepY) const {
-        if (!scene_.inside(x + stepX, y + stepY) || scene_.materialId[scene_.index(x + stepX, y + stepY)] == 0) {
-            return std::nullopt;
-        }
-        return (stepX + stepY) * (scene_.depth[scene_.index(x + stepX, y + stepY)] - scene_.depth[scene_.index(x, y)]);
-    }
-
-    // The rules of effect/interface/tangent_plane.glsl, from the statements in its comments.
-    double patchStep(int x, int y, int stepX, int stepY, double normalStep) const {
-        const std::optional<double> before = depthDifference(x, y, -stepX, -stepY);
-        const std::optional<double> after = depthDifference(x, y, stepX, stepY);
-        if (!before || !after) {
-            return before.value_or(0) + after.value_or(0);
-        }
-        const double size = scene_.depth[scene_.index(x, y)] / scene_.focalLength;
-        const auto [smaller, larger] = std::minmax(std::abs(*before), std::abs(*after));
-        if (larger > 2 * std::max(smaller, size)) {
-            return std::abs(*before) < std::abs(*after) ? *before : *after;
-        }
-        return std::clamp(normalStep, std::min(*before, *after), std::max(*before, *after));
-    }
-
-    Slope patchSlope(int x, int y) const {
-        constexpr double maxStretch = 20;
-        const Slope ofNormal = slope(x, y);
-        const Slope patch{patchStep(x, y, 1, 0, ofNormal.x), patchStep(x, y, 0, 1, ofNormal.y)};
-        const double steepness = std::hypot(patch.x, patch.y) * scene_.focalLength / scene_.depth[scene_.index(x, y)];
-        const double scale = std::min(1.0, maxStretch / std::max(steepness, 1e-6));
-        return {scale * patch.x, scale * patch.y};
-    }
-
     std::array<double, 3> position(double x, double y, double z) const {
         const double scale = z / scene_.focalLength;
         return {(x + 0.5 - 0.5 * scene_.width) * scale, (y + 0.5 - 0.5 * scene_.height) * scale, z};
     }
 
-    // Area of surface a pixel shows, mm²: of the parallelogram between the steps to the next pixels.
+    // Area of surface a pixel shows, mm²: z² / (f²·|n·ray|).
     double area(std::size_t q) const {
         const int x = static_cast<int>(q % scene_.width);
         const int y = static_cast<int>(q / scene_.width);
         const double perPixel = scene_.depth[q] / scene_.focalLength;
+        const Rgb& n = scene_.normal[q];
         const double rayX = (x + 0.5 - 0.5 * scene_.width) / scene_.focalLength;
         const double rayY = (y + 0.5 - 0.5 * scene_.height) / scene_.focalLength;
-        const Slope& slope = slopes_[q];
-        const Vector3<double> stepX{perPixel + rayX * slope.x, rayY * slope.x, slope.x};
-        const Vector3<double> stepY{rayX * slope.y, perPixel + rayY * slope.y, slope.y};
-        const Vector3<double> normal = cross(stepX, stepY);
-        return std::min(std::sqrt(dot(normal, normal)), perPixel * perPixel / leastFacing);
+        return perPixel * perPixel / std::max(std::abs(n[0] * rayX + n[1] * rayY + n[2]), 0.02);
     }
 
     Rgb share(const RadialTable& table, int x, int y, int qx, int qy) const {
         const std::size_t q = scene_.index(qx, qy);
         const auto from = position(x, y, scene_.depth[scene_.index(x, y)]);
-        const bool near = std::max(std::abs(qx - x), std::abs(qy - y)) <= settings_.nearField;
-        const int steps = near ? settings_.subSamples : 1;
+        const bool near = std::max(std::abs(qx - x), std::abs(qy - y)) <= nearField;
+        const int steps = near ? subSamples : 1;
         Rgb sum{};
         for (int j = 0; j < steps; ++j) {
             for (int i = 0; i < steps; ++i) {
@@ -213,16 +176,14 @@ private:
     }
 
     const ScatterScene& scene_;
-    const ScatterReferenceSettings& settings_;
     std::vector<RadialTable> tables_;
     std::vector<Slope> slopes_;
 };
 
 } // namespace
 
-std::vector<ReferencePixel> scatterReference(const ScatterScene& scene, int stride,
-                                             const ScatterReferenceSettings& settings) {
-    const Reference reference(scene, settings);
+std::vector<ReferencePixel> scatterReference(const ScatterScene& scene, int stride) {
+    const Reference reference(scene);
     std::vector<ReferencePixel> pixels;
     for (int y = 0; y < scene.height; y += stride) {
         for (int x = (y / stride) % stride; x < scene.width; x += stride) {
