@@ -55,7 +55,6 @@ TEST_F(SuiteTest, ComparesWritesItsReportsAndKeepsItsReferences) {
         EXPECT_GT(off["pixels"], 300) << "a ball fills most of 48 x 32 pixels' height";
         EXPECT_LT(off["energyRatio"][0], 0.5) << "nothing comes through from behind without the effect";
         EXPECT_GT(bank["energyRatio"][0], off["energyRatio"][0]);
-        EXPECT_GT(bank["psnrWithoutNoise"], off["psnrWithoutNoise"]) << reference;
         EXPECT_EQ(bank["thin"]["pixels"], bank["pixels"]) << "all of a ball of 3 mm is thin";
     }
     EXPECT_NE(readText(folder() / "out/accuracy.md").find("| thin-ball-back |"), std::string::npos);
