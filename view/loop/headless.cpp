@@ -107,8 +107,8 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
         orbit(camera, {wholeTurn / static_cast<float>(settings.frames), 0});
         loop.setCamera(camera);
         if (lightsMove) {
-            loop.setLights(
-                turnedLights(scene.lights, wholeTurn * static_cast<float>(frame) / static_cast<float>(settings.frames)));
+            loop.setLights(turnedLights(scene.lights,
+                                        wholeTurn * static_cast<float>(frame) / static_cast<float>(settings.frames)));
         }
         drawOne(loop);
     };
