@@ -21,9 +21,8 @@ namespace {
 constexpr float filterMargin = 6;
 /// A spot's map covers at most this half angle; a wider cone stays unshadowed at its rim.
 constexpr float largestHalfAngle = 85 * std::numbers::pi_v<float> / 180;
-/// Near plane of perspective maps over their range. Reversed 32-bit float depth is as exact at any distance from it, so
-/// that it may be nearer than anything a lamp lights.
-constexpr float nearToRange = 1e-8f;
+/// Near plane of perspective maps over their range; the depth is reversed 32-bit float, so it may be small.
+constexpr float nearToRange = 1e-4f;
 
 using Body = LightPlacement::Body;
 using Interval = LightPlacement::Interval;
@@ -60,11 +59,8 @@ glm::vec3 anyNormal(const std::vector<glm::vec3>& points) {
 }
 
 /// Whether the body is flat and the whole scene lies on its lit side: a ground that shadows nothing, whose size should
-/// not coarsen the map. A sheet that light shines through needs the map for itself.
+/// not coarsen the map.
 bool shadowsNothing(const Body& body, const glm::vec3& direction) {
-    if (body.shinesThrough) {
-        return false;
-    }
     if (body.normal == glm::vec3(0)) {
         return true;
     }
@@ -186,12 +182,12 @@ std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<con
         light.shadowRange = reach(bodies, toVector(light.position));
     }
     const glm::vec4 origin(toVector(light.position), 1 / light.shadowRange);
-    if (light.kind == NACRE_LIGHT_POINT) { // a cube map is seen from outside
+    if (light.kind == NACRE_LIGHT_POINT) {
         std::vector<shared::ShadowLayer> faces;
         for (const auto& [right, down, forward] : cubeFaces) {
             faces.push_back(
                 {perspectiveFrom(toVector(light.position), right, down, forward, nearToRange * light.shadowRange),
-                 origin * glm::vec4(1, 1, 1, -1), glm::vec4(0)});
+                 origin, glm::vec4(0)});
         }
         return faces;
     }
@@ -259,7 +255,6 @@ LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMa
       margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
     for (const scene::Instance& instance : scene.instances) {
         Body body{.points = worldPoints(scene, instance)};
-        body.shinesThrough = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material != scene::none;
         body.normal = anyNormal(body.points);
         bodies_.push_back(std::move(body));
     }

@@ -45,10 +45,9 @@ public:
     /// The vertices of an instance in world space, and what they are along its first triangle's normal.
     struct Body {
         std::vector<glm::vec3> points;
-        glm::vec3 normal{0};        ///< zero where no triangle has an area
-        Interval own{};             ///< along the normal
-        Interval all{};             ///< the whole scene along it
-        bool shinesThrough = false; ///< has a subsurface material
+        glm::vec3 normal{0}; ///< zero where no triangle has an area
+        Interval own{};      ///< along the normal
+        Interval all{};      ///< the whole scene along it
     };
     /// A light in its place; its shadow layers count from 0.
     struct Placed {

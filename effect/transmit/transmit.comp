@@ -1,6 +1,6 @@
-// Light that comes through: per light, the surface where the light enters (shadow map), how far the receiver is from it,
-// the slab transmittance of the material's profile at that distance, times the light's irradiance there. Light that enters
-// where the camera sees it is scatter's, and is left out here (docs/theory.md, "Light that comes through").
+// Light that comes through: per light, the thickness between the pixel and where the light enters (shadow map), the
+// slab transmittance of the material's profile at that thickness, times the light's irradiance on the far side. Light
+// that enters where the camera sees it is scatter's, and is left out here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -53,19 +53,8 @@ const float sameSurfaceShare = 0.02;
 const float leastFacing = 0.3;
 // [1] The same cosine from which on all light around an entry point is taken to enter where the camera sees it.
 const float fullyFacing = 0.5;
-// [1] Where the light enters around the receiver's own ray, the entry surface is looked at twice: in the texels that the ray
-// meets, and in 4x4 points this far apart, over the material's spread.
-const float wideSpacing = 1.0;
-// [1] Distance along the entry surface, over the spread, from which on light is taken to enter as the wide points have it.
-const float wideFrom = 0.4;
-// [1] Cosine between entry surface and light below which the surface is not followed from one wide point to the next.
-const float leastEntryCosine = 0.25;
-// [1] How exact a map is about where a body ends, in its texels.
-const float bodyTexels = 4.0;
-// [mm] Thickness that nothing shines through.
-const float opaque = 1e9;
 // [1] Transmittance below which nobody asks whether scatter has the light already: twice as much of it is not seen.
-const float leastAsked = 1.0 / 256.0;
+const float leastTwice = 1.0 / 256.0;
 
 struct Receiver {
     vec3 viewPosition; // view space, mm
@@ -220,161 +209,43 @@ PlaneDepths planeDepths(LightParameters light, vec3 offset, mat2x3 steps, vec4 x
     return PlaneDepths(depth + x * (gradient.x + second.x * x), gradient.y + second.y * x, second.z * y * y);
 }
 
-// Texels of the 4 taps on an axis that are `spacing` texels apart, and their weights: a tent, so that a tap comes and goes
-// without weight.
-void taps(float coordinate, float spacing, float last, out vec4 texels, out vec4 weights) {
+// Texels of the 4 taps on an axis, and their weights.
+void taps(float coordinate, float last, out vec4 texels, out vec4 weights) {
     const vec4 tap = vec4(-1.0, 0.0, 1.0, 2.0);
+    float spacing = max(0.5 * parameters.filterRadius, 0.5);
     float base = floor(coordinate / spacing - 0.5);
     float fraction = coordinate / spacing - 0.5 - base;
     texels = clamp(floor((base + tap + 0.5) * spacing), 0.0, last);
     weights = 0.5 - 0.25 * abs(tap - fraction);
 }
 
-// Whether so much light comes through that more is asked about it. The thesis does not ask.
-bool asksMore(vec3 transmittance) {
-    return any(greaterThan(transmittance, vec3(leastAsked))) && !hasFlag(flagThesisTransmittance);
+// Whether the light that comes through has to be looked for in the picture. The thesis does not ask.
+bool mayCountTwice(vec3 transmittance) {
+    return any(greaterThan(transmittance, vec3(leastTwice))) && !hasFlag(flagThesisTransmittance);
 }
 
-// [0, 1] Whether the map can tell how thick a body is: its texels are smaller than the profile is wide, or what they say lies
-// no farther from the receiver's plane. `deviation`: mm, root mean square.
-float certaintyOf(Receiver receiver, ShadowPoint point, float deviation) {
-    float least = min(point.texelSize * view.mmPerUnit, deviation);
-    return clamp(2.0 - 2.0 * least / reachOf(receiver.material), 0.0, 1.0);
-}
-
-// [mm] How far towards the light the receiver's own body can be, as far as it is known. What is farther is another body.
-float farthestOf(Receiver receiver, ShadowPoint point) {
-    float exactness = bodyTexels * point.texelSize * view.mmPerUnit;
-    return receiver.authored > 0.0 ? 2.0 * receiver.authored + reachOf(receiver.material) + exactness : opaque;
-}
-
-// Thickness of the receiver's own body where the map says `thickness`, mm. An authored one is the most it can be, and what it
-// is where the map cannot tell. Other bodies throw a shadow, and so do a body's back sides (stored depth below 0).
-vec4 ownThickness(Receiver receiver, vec4 thickness, vec4 stored, float certainty, float farthest) {
-    vec4 result = max(thickness, 0.0);
-    if (receiver.authored > 0.0) {
-        result = mix(vec4(receiver.authored), min(result, receiver.authored), certainty);
-    }
-    vec4 shadowed = max(step(vec4(farthest), thickness), vec4(lessThan(stored, vec4(0.0))));
-    return mix(result, vec4(opaque), shadowed);
-}
-
-// Where a light enters the body.
-struct Entry {
-    vec3 normal;     // world space, unit length, towards the light
-    float cosine;    // between normal and light
-    float opposite;  // [-1, 1] cosine between normal and the receiver's, turned round
-    float thickness; // mm along the light
-};
-
-// The entry surface's normal, from how thickness changes from texel to texel: it is spanned by the receiver's plane moved
-// along the light. `change`: mm a texel.
-Entry entryOf(Receiver receiver, mat2x3 steps, vec3 toLight, vec2 change, float thickness) {
-    vec3 normal = normalize(cross(steps[0] + change.x * toLight, steps[1] + change.y * toLight));
-    normal *= dot(normal, toLight) < 0.0 ? -1.0 : 1.0;
-    return Entry(normal, max(dot(normal, toLight), 0.01), -dot(normal, receiver.normal), thickness);
-}
-
-vec4 lengths(vec4 x, vec4 y, vec4 z, float w) {
-    return sqrt(x * x + y * y + z * z + w * w);
-}
-
-// Transmittance over 4x4 points of the entry surface that are a spread apart. What they say is how much nearer or farther
-// than the entry's plane the surface is under each: at a body's edge there is none. `least`: mm, see wideFrom.
-vec3 wideTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, Entry entry, vec3 toLight,
-                       float distance, float least, float spacing) {
-    vec3 toFoot = distance * entry.normal; // of the perpendicular on the entry's plane
-    vec3 offset = receiver.position - light.position.xyz + toFoot / view.mmPerUnit;
-    vec4 inner = vec4(offset, 1.0);
-    float w = dot(point.projection.w, inner);
-    vec2 texel = vec2(dot(point.projection.x, inner), dot(point.projection.y, inner)) / w;
+// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way
+// through what the normal offset cut off is added again. What is filtered is the transmittance: light adds up, thickness
+// does not.
+vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
     vec4 columns, rows, columnWeights, rowWeights;
-    taps(texel.x, spacing, light.shadowSize.x - 1.0, columns, columnWeights);
-    taps(texel.y, spacing, light.shadowSize.y - 1.0, rows, rowWeights);
+    taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);
+    taps(point.texel.y, light.shadowSize.y - 1.0, rows, rowWeights);
     mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
-    vec3 acrossX = point.projection.x.xyz - texel.x * point.projection.w.xyz; // how a texel moves across the light
-    vec3 acrossY = point.projection.y.xyz - texel.y * point.projection.w.xyz;
-    acrossX -= dot(acrossX, toLight) * toLight;
-    acrossY -= dot(acrossY, toLight) * toLight;
-    acrossX *= w * view.mmPerUnit / dot(acrossX, acrossX);
-    acrossY *= w * view.mmPerUnit / dot(acrossY, acrossY);
-    float depth = (light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset)) * view.mmPerUnit;
-    float range = light.direction.w * view.mmPerUnit;
-    float slope = 1.0 / max(entry.cosine, leastEntryCosine);
-    vec4 x = columns + 0.5 - texel.x;
-    mat4 thickness;
-    for (int row = 0; row < 4; ++row) {
-        float y = rows[row] + 0.5 - texel.y;
-        vec4 along = depth - stored[row] * range;
-        vec4 acrossOnX = x * acrossX.x + y * acrossY.x;
-        vec4 acrossOnY = x * acrossX.y + y * acrossY.y;
-        vec4 acrossOnZ = x * acrossX.z + y * acrossY.z;
-        vec4 lean = -slope * (acrossOnX * entry.normal.x + acrossOnY * entry.normal.y + acrossOnZ * entry.normal.z);
-        vec4 excess = lengths(toFoot.x + acrossOnX + along * toLight.x, toFoot.y + acrossOnY + along * toLight.y,
-                              toFoot.z + acrossOnZ + along * toLight.z, 0.0) -
-                      lengths(acrossOnX + lean * toLight.x, acrossOnY + lean * toLight.y, acrossOnZ + lean * toLight.z,
-                              distance);
-        thickness[row] = mix(max(excess + least, 0.0), vec4(opaque), vec4(lessThan(stored[row], vec4(0.0))));
-    }
-    return transmittance(receiver.material, thickness, columnWeights, rowWeights);
-}
-
-// Light of a light that shines on a surface that faces it with 1 (rgb), and thickness in mm along the light (w), filtered over
-// 4x4 texels under a tent of filterRadius. The light's way through what the normal offset cut off is added again. What is
-// filtered is the transmittance: light adds up, thickness does not.
-vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, vec3 toLight, float cosine) {
-    vec4 columns, rows, columnWeights, rowWeights;
-    float tight = max(0.5 * parameters.filterRadius, 0.5);
-    taps(point.texel.x, tight, light.shadowSize.x - 1.0, columns, columnWeights);
-    taps(point.texel.y, tight, light.shadowSize.y - 1.0, rows, rowWeights);
-    mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
-    mat2x3 steps = planeSteps(point, receiver.normal) * view.mmPerUnit;
+    mat2x3 steps = planeSteps(point, receiver.normal);
     vec4 x = columns + 0.5 - point.texel.x;
     vec4 y = rows + 0.5 - point.texel.y;
-    PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps, x, y);
+    PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
     float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
     float range = light.direction.w * view.mmPerUnit;
-    float farthest = farthestOf(receiver, point);
-    vec2 middle = vec2(dot(x, columnWeights), dot(y, rowWeights));
-    vec4 fromMiddle = columnWeights * (x - middle.x);
+    float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
     mat4 thickness;
-    vec2 told = vec2(0.0); // mean and mean square
     for (int i = 0; i < 4; ++i) {
-        vec4 depths = plane.constant + plane.slope * y[i] + (plane.square[i] + removed);
-        thickness[i] = depths - abs(stored[i]) * range;
-        told += rowWeights[i] * vec2(dot(thickness[i], columnWeights), dot(thickness[i] * thickness[i], columnWeights));
+        vec4 depths = plane.constant + plane.slope * y[i];
+        thickness[i] = clamp(depths + (plane.square[i] + removed) - stored[i] * range, 0.0, most);
     }
-    float certainty = certaintyOf(receiver, point, sqrt(told.y));
-    vec3 moments = vec3(0.0); // of thickness with x, y and 1
-    for (int i = 0; i < 4; ++i) {
-        thickness[i] = ownThickness(receiver, thickness[i], stored[i], certainty, farthest);
-        vec4 finite = min(thickness[i], reachOf(receiver.material));
-        float row = rowWeights[i] * dot(finite, columnWeights);
-        moments += vec3(rowWeights[i] * dot(finite, fromMiddle), (y[i] - middle.y) * row, row);
-    }
-    if (hasFlag(flagThesisTransmittance)) {
-        return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights) * cosine, moments.z);
-    }
-    vec2 spread = vec2(dot(fromMiddle, x - middle.x), dot(rowWeights, (y - middle.y) * (y - middle.y)));
-    Entry entry = entryOf(receiver, steps, toLight, moments.xy / max(spread, 1e-6), moments.z);
-    // Across the body where its two sides face each other, along the light where they do not.
-    float across = mix(1.0, entry.cosine, max(entry.opposite, 0.0));
-    vec3 through = transmittance(receiver.material, thickness * across, columnWeights, rowWeights);
-    through *= 0.5 + 0.5 * entry.opposite; // the share of the entry's plane that is not the receiver's own side
-    float wanted = wideSpacing * tables[receiver.material].spread / (point.texelSize * view.mmPerUnit);
-    bool isThere = told.x > -bodyTexels * point.texelSize * view.mmPerUnit; // else the map has nothing before the receiver
-    for (bool wide = wanted >= 1.0 && isThere && asksMore(through); wide; wide = false) {
-        // The same for all receivers around, so that the points stay where they are.
-        float spacing = light.kind == lightDirectional ? wanted : exp2(floor(log2(wanted) + 0.5));
-        float distance = entry.thickness * across;
-        float least = length(vec2(distance, wideFrom * tables[receiver.material].spread));
-        vec3 share = transmittance(receiver.material, least) / max(transmittance(receiver.material, distance), 1e-6);
-        vec3 around = wideTransmittance(light, receiver, point, entry, toLight, entry.thickness * entry.cosine, least, spacing);
-        float facing = clamp(1.0 + entry.opposite, 0.0, 1.0);
-        through = through * (1.0 - share) + around * (facing * facing);
-    }
-    float known = receiver.authored > 0.0 ? 1.0 : certainty;
-    return vec4(through * (entry.cosine * known), entry.thickness);
+    float mean = dot(thickness * rowWeights, columnWeights);
+    return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
 }
 
 // The pixel that shows a view-space position, mm.
@@ -420,16 +291,16 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
         point = project(light, receiver);
     }
     for (bool inside = point.inside; inside; inside = false) { // software devices skip it where no pixel is inside
-        through = filteredTransmittance(light, receiver, point, incidence.toLight, cosine);
+        through = filteredTransmittance(light, receiver, point, cosine);
     }
     if (!point.inside && receiver.authored > 0.0) {
-        through = vec4(transmittance(receiver.material, receiver.authored) * cosine, receiver.authored);
+        through = vec4(transmittance(receiver.material, receiver.authored), receiver.authored);
     }
-    for (bool asks = asksMore(through.rgb); asks; asks = false) {
+    for (bool asks = mayCountTwice(through.rgb); asks; asks = false) {
         float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w;
         through.rgb *= hiddenShare(receiver, incidence.toLight, through.w, tolerance);
     }
-    return vec4(through.rgb * incidence.irradiance, through.w);
+    return vec4(through.rgb * incidence.irradiance * cosine, through.w);
 }
 
 void writeResult(ivec2 pixel, vec3 light, float thickness) {

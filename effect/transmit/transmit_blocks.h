@@ -30,8 +30,7 @@ NACRE_CONSTANT transmittanceLast = transmittanceOctaves << transmittanceMantissa
 struct TransmitTable {
     float scale;     // 1/mm
     uint layerCount; // 0 = Burley's profile
-    float spread;    // mm, outside of which a quarter of the widest channel's light leaves
-    uint unused;
+    uint unused0, unused1;
     uvec2 transmittance[transmittanceLast + 2];
     vec4 layers[maxLayers];
 };

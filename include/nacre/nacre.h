@@ -236,10 +236,8 @@ typedef struct NacreMaterial {
                                    walls, the share f of the light that goes through (see WHAT TO DO WITH THE RESULTS) */
     float scale;              /**< [1e-6, 1e4] multiplies the profile's lengths, which keep to
                                   their ranges; 0 = 1 */
-    float thickness;          /**< [>= 0] mm, authored thickness across the body: bounds the shadow maps' estimate, or stands
-                                   in for it where a light has none or its texels are as large as light goes far. What a
-                                   map shows much farther towards the light is another body, which shadows. 0 = not
-                                   authored: where a map cannot tell, nothing shines through */
+    float thickness;          /**< [>= 0] mm, authored thickness: bounds the shadow maps' estimate, or stands in for it
+                                   where a light has none; 0 = not authored */
     uint32_t exchangeGroups;  /**< bit mask: light crosses between two materials on one surface (with the receiver's
                                    profile) when they share a bit; 0 = only within the material */
     VkBool32 secondSurfaces;  /**< frames with a material that has it are scattered as by
@@ -327,9 +325,8 @@ typedef struct NacreLight {
     uint32_t shadowMap;       /**< index into NacreTransmitInfo::shadowMaps, or NACRE_NO_SHADOW_MAP */
     uint32_t shadowLayer;     /**< its first array layer; a point light has six, faces +X -X +Y -Y +Z -Z as in a cube map */
     float shadowClipFromWorld[16]; /**< directional, spot */
-    float shadowRange;        /**< scene units: linear depth = |stored value| · shadowRange. Directional: along `direction`
-                                   from `position`; spot, point: distance from `position`. A stored value below 0 is the
-                                   back of a body that has an inside: it shadows, but light does not enter there */
+    float shadowRange;        /**< scene units: linear depth = stored value · shadowRange. Directional: along `direction`
+                                   from `position`; spot, point: distance from `position` */
 } NacreLight;
 
 typedef struct NacreTransmitInfo {

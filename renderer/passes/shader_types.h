@@ -72,7 +72,7 @@ struct LightConstants {
 /// One layer of the shadow maps, as it is drawn.
 struct ShadowLayer {
     mat4 clipFromWorld;
-    vec4 origin;    ///< linear depth is measured from here; w: 1 / shadow range, negative where the layer is a mirror image
+    vec4 origin;    ///< linear depth is measured from here; w: 1 / shadow range
     vec4 direction; ///< w: 1 when depth is along the direction, 0 when it is the distance from the origin
 };
 

@@ -258,8 +258,8 @@ TEST_F(TransmitTest, LightsAddUp) {
     }
 }
 
-// Many lights with several shadow maps: the loops of a software device end after 65,535 turns. It holds up to half as many
-// lights there as a context may have.
+// Many lights with several shadow maps: the loops of a software device end after 65,535 turns. The thesis's own form
+// takes a turn for every two layers of every light, and holds there up to half as many lights as a context may have.
 TEST_F(TransmitTest, ManyLightsAddUp) {
     const Slab slab{.thickness = 1.5};
     const NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
