@@ -1,7 +1,6 @@
 // Transmit's filter against the sum over its taps: a plane lit from behind through bodies of uneven thickness.
 #include "nacre/profile.hpp"
 #include "tests/gpu/support/effect.hpp"
-#include "tests/support/synthetic_scenes.hpp"
 
 #include <cmath>
 #include <functional>
