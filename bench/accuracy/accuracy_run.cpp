@@ -118,7 +118,7 @@ public:
         : device_(device), plan_(plan), reporter_(reporter) {}
 
     AccuracyViewResult operator()(const AccuracyViewEntry& entry, const std::string& number) {
-        reporter_.say(number + ' ' + entry.name + ": making the scene");
+        reporter_.say(number + ' ' + entry.name + ": making the scene …");
         view_ = entry.make();
         view_.name = entry.name;
         result_ = {entry.name, entry.what, view_.shadowMapSize, {}, {}};

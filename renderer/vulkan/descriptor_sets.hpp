@@ -45,6 +45,14 @@ class DescriptorSets {
 public:
     DescriptorSets() = default;
     DescriptorSets(const Gpu& gpu, std::span<const Binding> bindings, vk::ShaderStageFlags stages);
+    DescriptorSets(DescriptorSets&&) = default;
+    /// Frees the sets before their pool.
+    DescriptorSets& operator=(DescriptorSets&& other) noexcept {
+        sets_ = std::move(other.sets_);
+        pool_ = std::move(other.pool_);
+        layout_ = std::move(other.layout_);
+        return *this;
+    }
 
     vk::DescriptorSetLayout layout() const { return *layout_; }
     vk::DescriptorSet of(std::uint32_t frame) const { return *sets_[sets_.size() == 1 ? 0 : frame]; }

@@ -24,8 +24,8 @@ scene::Scene litGround() {
 }
 
 TEST_F(Reload, DrawsWithChangedShadersAndKeepsThePictureWhereOneIsBroken) {
-    const ProjectCopy project({"app", "bench", "cmake", "core", "developer", "effect", "image", "include", "reference",
-                               "renderer", "scene", "trace"},
+    const ProjectCopy project({"app", "bake", "bench", "cmake", "core", "developer", "effect", "image", "include",
+                               "reference", "renderer", "scene", "trace", "view"},
                               "-DNACRE_BUILD_APP=ON");
     const std::string scatter = "effect/separable/scatter_separable.comp";
     const std::string compose = "renderer/passes/compose_picture.comp";

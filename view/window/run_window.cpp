@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QTimer>
 
+#include <iostream>
 #include <stdexcept>
 
 namespace nacre::view {
@@ -35,6 +36,13 @@ void runScripted(MainWindow& window, const RunSettings& settings, const Script& 
     script.run(window);
 }
 
+/// What Qt has to say is a note, but for what a platform without windows cannot do.
+void showNote(QtMsgType type, const QMessageLogContext&, const QString& text) {
+    if (type != QtDebugMsg && type != QtInfoMsg && !text.startsWith("This plugin does not support")) {
+        std::cerr << "nacre: note: " << text.toStdString() << '\n';
+    }
+}
+
 } // namespace
 
 int runWindow(const RunSettings& settings) {
@@ -42,6 +50,7 @@ int runWindow(const RunSettings& settings) {
     int argumentCount = 1;
     char name[] = "nacre";
     char* arguments[] = {name, nullptr};
+    qInstallMessageHandler(showNote);
     QApplication application(argumentCount, arguments);
     QApplication::setApplicationName("nacre");
     QApplication::setOrganizationName("nacre");
