@@ -98,7 +98,15 @@ renderer::RenderSettings PictureLoop::renderSettings(vk::Extent2D extent) const 
 std::unique_ptr<PictureLoop::Sized> PictureLoop::makeFrame(vk::Extent2D extent) {
     const renderer::FrameLimits limits{
         .framesInFlight = settings_.framesInFlight, .lights = settings_.lights, .shadowLayers = settings_.shadowLayers};
-    return std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
+    auto sized =
+        std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
+    // A slider can make a material ask for second surfaces. No frame is to wait for their passes then.
+    if (!materials_.empty()) {
+        renderer::EffectSettings effect = sides_[0].effect;
+        effect.technique = NACRE_TECHNIQUE_BANK_SURFACES;
+        sized->frame.prepare(effect);
+    }
+    return sized;
 }
 
 void PictureLoop::makeSlots() {
