@@ -50,7 +50,7 @@ void WorkWriter::putText(std::string_view text) {
 void WorkWriter::save(const std::filesystem::path& file) {
     put(checksumOf(bytes_));
     writeFileAtomically(file, bytes_);
-    bytes_.resize(bytes_.size() - sizeof(std::uint64_t));
+    bytes_.erase(bytes_.end() - static_cast<std::ptrdiff_t>(sizeof(std::uint64_t)), bytes_.end());
 }
 
 WorkReader::WorkReader(const std::filesystem::path& file, std::string_view magic, std::string_view what)
