@@ -65,8 +65,8 @@ Bodies makeBodies(VkExtent2D extent, double coverage) {
     for (int i = 0; i < 15; ++i) {
         const int column = i % 5 - 2;
         const int row = i / 5 - 1;
-        bodies.centers.push_back({halfWidth * 0.4f * static_cast<float>(column),
-                                  halfHeight * 0.66f * static_cast<float>(row), -middle});
+        bodies.centers.push_back(
+            {halfWidth * 0.4f * static_cast<float>(column), halfHeight * 0.66f * static_cast<float>(row), -middle});
     }
     return bodies;
 }

@@ -64,8 +64,8 @@ std::unique_ptr<Profile> makeProfile(const Material& material);
 std::vector<Layer> makeLayers(const Material& material);
 
 /// Least rms radius [mm] of a profile's widest channel with which a material asks for second surfaces of itself: light
-/// that goes so far reaches from one fold of a body as large as a hand to the next. docs/performance.md, "Error on models",
-/// has what they gain.
+/// that goes so far reaches from one fold of a body as large as a hand to the next. docs/performance.md, "Error on
+/// models", has what they gain.
 inline constexpr double secondSurfacesRadius = 3;
 
 /// Material::secondSurfaces or, where it is absent, whether the profile reaches secondSurfacesRadius. Throws

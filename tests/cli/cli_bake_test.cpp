@@ -1,6 +1,6 @@
 // `nacre bake thickness` as a user runs it: textures, meshes, reports, and what it refuses. Needs no device.
-#include "running_nacre.hpp"
 #include "image/image_file.hpp"
+#include "running_nacre.hpp"
 #include "scene/import.hpp"
 #include "schema.hpp"
 #include "tests/support/gltf_builder.hpp"

@@ -80,7 +80,12 @@ TEST(GeometryTest, MirroredInstancesFaceOutwards) {
 TEST(GeometryTest, MaskedTexelsAreHoles) {
     scene::Scene scene = darkScene();
     const std::uint32_t surface = addSurface(scene, nullptr);
-    scene::Texture texture{.name = "half", .width = 2, .height = 1, .wrapU = scene::Wrap::Clamp, .wrapV = scene::Wrap::Clamp, .pixels = {}};
+    scene::Texture texture{.name = "half",
+                           .width = 2,
+                           .height = 1,
+                           .wrapU = scene::Wrap::Clamp,
+                           .wrapV = scene::Wrap::Clamp,
+                           .pixels = {}};
     texture.pixels = {255, 255, 255, 0, 255, 255, 255, 255};
     scene.textures.push_back(texture);
     scene.surfaces[surface].baseColorTexture = 0;
