@@ -25,8 +25,9 @@ Mask thinParts(const AccuracyView& view, const Size& size) {
     const std::vector<double> thin = thinThicknesses(*view.scene);
     Mask mask(std::size_t{size.width} * size.height);
     for (std::size_t pixel = 0; pixel < mask.size(); ++pixel) {
-        const trace::Ray ray =
-            camera.ray(static_cast<double>(pixel % size.width) + 0.5, static_cast<double>(pixel / size.width) + 0.5);
+        const std::size_t column = pixel % size.width;
+        const std::size_t row = pixel / size.width;
+        const trace::Ray ray = camera.ray(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
         const auto hit = geometry.visible(ray);
         if (!hit) {
             continue;

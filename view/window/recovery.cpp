@@ -38,7 +38,7 @@ std::optional<Recovered> read(const QString& path) {
     }
     file.remove();
     Recovered result{object["scene"].toString(), {}};
-    for (const QJsonValue& text : object["materials"].toArray()) {
+    for (const auto& text : object["materials"].toArray()) {
         try {
             result.materials.push_back(parseMaterial(text.toString().toStdString(), path.toStdString()));
         } catch (const FileError&) {
