@@ -1,6 +1,7 @@
 // Second pass of `brute`: sum over every pixel within the radius of R(distance)·area·light, divided by that of
-// R(distance)·area. Each of its dispatches adds one band of rows (bruteBandRows). A pixel's surface is a flat patch, lit evenly. Within cellRadius px the profile varies on a patch:
-// there its integral over the patch is taken; further out its value at the pixel's centre, from the radial table.
+// R(distance)·area. Each of its dispatches adds one band of rows (bruteBandRows). A pixel's surface is a flat patch, lit
+// evenly. Within cellRadius px the profile varies on a patch: there its integral over the patch is taken; further out its
+// value at the pixel's centre, from the radial table.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "interface/scatter.glsl"
@@ -170,7 +171,8 @@ Window windowOf(Receiver receiver, float radius) {
     Window window;
     window.reach = ceil(radius / vec2(length(stepX(nearest)), length(stepY(nearest))));
     ivec2 reach = ivec2(min(window.reach, vec2(32768.0)));
-    window.low = max(-reach, -receiver.local);
+    // Not max(-reach, -receiver.local): with the maximum that main takes next, NVIDIA's driver 580.159.04 loses a sign.
+    window.low = -min(reach, receiver.local);
     window.high = min(reach, view.areaExtent - 1 - receiver.local);
     return window;
 }
