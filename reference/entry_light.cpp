@@ -46,7 +46,7 @@ std::optional<glm::dvec3> EntryLight::rendered(const trace::SurfacePoint& point,
     }
     const auto column = static_cast<std::size_t>(place->x / pictureSize_.x * image_.width);
     const auto row = static_cast<std::size_t>(place->y / pictureSize_.y * image_.height);
-    const float* pixel = &image_.values[(row * image_.width + column) * 4];
+    const std::span<const float> pixel = image_.at(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
     return glm::dvec3(pixel[0], pixel[1], pixel[2]);
 }
 

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace nacre::tests {
 namespace {
 
-constexpr int nearField = 3;  // px within which R is integrated over the pixel
-constexpr int subSamples = 6; // per axis and near pixel
-constexpr double reachShare = 0.9995;
+constexpr double leastFacing = 0.02; // cosine between ray and normal: at most 50 times a facing pixel's area
 
 struct Slope {
     double x = 0; // mm of depth per px
@@ -22,7 +21,7 @@ struct Slope {
 // The profile in a table over √r, where even Burley's pole at 0 is tame enough for linear interpolation.
 class RadialTable {
 public:
-    explicit RadialTable(const Profile& profile) : reach_(profile.quantileRadius(reachShare)) {
+    RadialTable(const Profile& profile, double reach) : reach_(reach) {
         for (int i = 0; i <= size; ++i) {
             const double root = std::max(i, 1) / static_cast<double>(size);
             for (int channel = 0; channel < 3; ++channel) {
@@ -53,13 +52,14 @@ private:
 
 class Reference {
 public:
-    explicit Reference(const ScatterScene& scene) : scene_(scene) {
+    Reference(const ScatterScene& scene, const ScatterReferenceSettings& settings)
+        : scene_(scene), settings_(settings) {
         for (const auto& profile : scene.profiles) {
-            tables_.emplace_back(*profile);
+            tables_.emplace_back(*profile, profile->quantileRadius(settings.reachShare));
         }
         for (int y = 0; y < scene.height; ++y) {
             for (int x = 0; x < scene.width; ++x) {
-                slopes_.push_back(slope(x, y));
+                slopes_.push_back(settings.patchesOfBrute ? patchSlope(x, y) : slope(x, y));
             }
         }
     }
@@ -69,7 +69,9 @@ public:
         const int material = scene_.materialId[centre] - 1;
         const RadialTable& table = tables_[material];
         const double z = scene_.depth[centre];
-        const int radius = static_cast<int>(std::ceil(table.reach() * scene_.focalLength / z)) + 1;
+        // Pixels per radius where the surface is nearest to the camera within it.
+        const double nearest = std::max(z - table.reach(), 0.5 * z);
+        const int radius = static_cast<int>(std::ceil(table.reach() * scene_.focalLength / nearest)) + 1;
         Rgb sum{};
         Rgb weightSum{};
         for (int dy = -radius; dy <= radius; ++dy) {
@@ -106,37 +108,86 @@ private:
         return {n[0] * scale, n[1] * scale};
     }
 
+    // How z changes towards a neighbour, per step along the axis; nothing where there is no surface.
+    std::optional<double> depthDifference(int x, int y, int stepX, int stepY) const {
+        if (!scene_.inside(x + stepX, y + stepY) || scene_.materialId[scene_.index(x + stepX, y + stepY)] == 0) {
+            return std::nullopt;
+        }
+        return (stepX + stepY) * (scene_.depth[scene_.index(x + stepX, y + stepY)] - scene_.depth[scene_.index(x, y)]);
+    }
+
+    // The rules of effect/interface/tangent_plane.glsl, from the statements in its comments.
+    double patchStep(int x, int y, int stepX, int stepY, double normalStep) const {
+        const std::optional<double> before = depthDifference(x, y, -stepX, -stepY);
+        const std::optional<double> after = depthDifference(x, y, stepX, stepY);
+        if (!before || !after) {
+            return before.value_or(0) + after.value_or(0);
+        }
+        const double size = scene_.depth[scene_.index(x, y)] / scene_.focalLength;
+        const auto [smaller, larger] = std::minmax({std::abs(*before), std::abs(*after)});
+        if (larger > 2 * std::max(smaller, size)) {
+            return std::abs(*before) < std::abs(*after) ? *before : *after;
+        }
+        return std::clamp(normalStep, std::min(*before, *after), std::max(*before, *after));
+    }
+
+    Slope patchSlope(int x, int y) const {
+        constexpr double maxStretch = 20;
+        const Slope ofNormal = slope(x, y);
+        const Slope patch{patchStep(x, y, 1, 0, ofNormal.x), patchStep(x, y, 0, 1, ofNormal.y)};
+        const double steepness = std::hypot(patch.x, patch.y) * scene_.focalLength / scene_.depth[scene_.index(x, y)];
+        const double scale = std::min(1.0, maxStretch / std::max(steepness, 1e-6));
+        return {scale * patch.x, scale * patch.y};
+    }
+
     std::array<double, 3> position(double x, double y, double z) const {
         const double scale = z / scene_.focalLength;
         return {(x + 0.5 - 0.5 * scene_.width) * scale, (y + 0.5 - 0.5 * scene_.height) * scale, z};
     }
 
-    // Area of surface a pixel shows, mm²: z² / (f²·|n·ray|).
-    double area(std::size_t q) const {
+    // How the point that a pixel's ray meets on its patch moves from one pixel to the next in x and in y, mm.
+    std::pair<Vector3<double>, Vector3<double>> steps(std::size_t q) const {
         const int x = static_cast<int>(q % scene_.width);
         const int y = static_cast<int>(q / scene_.width);
         const double perPixel = scene_.depth[q] / scene_.focalLength;
-        const Rgb& n = scene_.normal[q];
         const double rayX = (x + 0.5 - 0.5 * scene_.width) / scene_.focalLength;
         const double rayY = (y + 0.5 - 0.5 * scene_.height) / scene_.focalLength;
-        return perPixel * perPixel / std::max(std::abs(n[0] * rayX + n[1] * rayY + n[2]), 0.02);
+        const Slope& slope = slopes_[q];
+        return {{perPixel + rayX * slope.x, rayY * slope.x, slope.x},
+                {rayX * slope.y, perPixel + rayY * slope.y, slope.y}};
+    }
+
+    // Area of surface a pixel shows, mm²: of the parallelogram between the steps.
+    double area(std::size_t q) const {
+        const double perPixel = scene_.depth[q] / scene_.focalLength;
+        const auto [stepX, stepY] = steps(q);
+        const Vector3<double> normal = cross(stepX, stepY);
+        return std::min(std::sqrt(dot(normal, normal)), perPixel * perPixel / leastFacing);
+    }
+
+    // Points along one side of a pixel's patch: more where it is longer than a pixel is wide.
+    int pointsAlong(const Vector3<double>& side, std::size_t q) const {
+        const double perPixel = scene_.depth[q] / scene_.focalLength;
+        return settings_.subSamples * static_cast<int>(std::ceil(std::min(std::sqrt(dot(side, side)) / perPixel, 8.0)));
     }
 
     Rgb share(const RadialTable& table, int x, int y, int qx, int qy) const {
         const std::size_t q = scene_.index(qx, qy);
         const auto from = position(x, y, scene_.depth[scene_.index(x, y)]);
-        const bool near = std::max(std::abs(qx - x), std::abs(qy - y)) <= nearField;
-        const int steps = near ? subSamples : 1;
+        const auto middle = position(qx, qy, scene_.depth[q]);
+        const bool near = std::max(std::abs(qx - x), std::abs(qy - y)) <= settings_.nearField;
+        const auto [stepX, stepY] = steps(q);
+        const int countX = near ? pointsAlong(stepX, q) : 1;
+        const int countY = near ? pointsAlong(stepY, q) : 1;
         Rgb sum{};
-        for (int j = 0; j < steps; ++j) {
-            for (int i = 0; i < steps; ++i) {
-                const double dx = (i + 0.5) / steps - 0.5;
-                const double dy = (j + 0.5) / steps - 0.5;
-                const double z = scene_.depth[q] + slopes_[q].x * dx + slopes_[q].y * dy;
-                const auto to = position(qx + dx, qy + dy, z);
+        for (int j = 0; j < countY; ++j) {
+            for (int i = 0; i < countX; ++i) {
+                const double dx = (i + 0.5) / countX - 0.5;
+                const double dy = (j + 0.5) / countY - 0.5;
                 double squared = 0;
                 for (int axis = 0; axis < 3; ++axis) {
-                    squared += (to[axis] - from[axis]) * (to[axis] - from[axis]);
+                    const double offset = middle[axis] + dx * stepX[axis] + dy * stepY[axis] - from[axis];
+                    squared += offset * offset;
                 }
                 const Rgb value = table.at(squared);
                 for (int channel = 0; channel < 3; ++channel) {
@@ -144,21 +195,21 @@ private:
                 }
             }
         }
-        const double scale = area(q) / (steps * steps);
+        const double scale = area(q) / (countX * countY);
         return {sum[0] * scale, sum[1] * scale, sum[2] * scale};
     }
 
     // The pixel's own share, exact for any profile on a tilted plane: the mean of the CDF along the pixel's outline.
     Rgb ownShare(const Profile& profile, std::size_t q) const {
-        constexpr int directions = 64;
-        const double perPixel = scene_.depth[q] / scene_.focalLength;
+        constexpr int directions = 256;
         const double half = 0.5;
         Rgb sum{};
         double angleSum = 0;
         // Angles are taken on the surface: a step (u, v) px on the screen is the vector u·t₁ + v·t₂ in space.
-        const double t11 = perPixel * perPixel + slopes_[q].x * slopes_[q].x;
-        const double t22 = perPixel * perPixel + slopes_[q].y * slopes_[q].y;
-        const double t12 = slopes_[q].x * slopes_[q].y;
+        const auto [stepX, stepY] = steps(q);
+        const double t11 = dot(stepX, stepX);
+        const double t22 = dot(stepY, stepY);
+        const double t12 = dot(stepX, stepY);
         const double determinant = std::sqrt(std::max(t11 * t22 - t12 * t12, 0.0));
         for (int i = 0; i < directions; ++i) {
             const double angle = (i + 0.5) * 2 * std::numbers::pi / directions;
@@ -176,14 +227,16 @@ private:
     }
 
     const ScatterScene& scene_;
+    const ScatterReferenceSettings& settings_;
     std::vector<RadialTable> tables_;
     std::vector<Slope> slopes_;
 };
 
 } // namespace
 
-std::vector<ReferencePixel> scatterReference(const ScatterScene& scene, int stride) {
-    const Reference reference(scene);
+std::vector<ReferencePixel> scatterReference(const ScatterScene& scene, int stride,
+                                             const ScatterReferenceSettings& settings) {
+    const Reference reference(scene, settings);
     std::vector<ReferencePixel> pixels;
     for (int y = 0; y < scene.height; y += stride) {
         for (int x = (y / stride) % stride; x < scene.width; x += stride) {

@@ -124,8 +124,53 @@ vec3 burley(float distance, vec3 meanFreePath) {
     return (decay * decay * decay + decay) / (8.0 * pi * meanFreePath * distance);
 }
 
-// Burley's profile over the square's cells: R has a pole at 0, so the receiver's own cell is replaced by the disc of
-// equal area (closed form; the square's integral of 1/r is 0.6 % less) and its neighbours are sampled finely.
+// The share of Burley's profile within a distance.
+vec3 burleyWithin(float distance, vec3 meanFreePath) {
+    vec3 decay = exp(-distance / (3.0 * meanFreePath));
+    return 1.0 - 0.25 * decay * decay * decay - 0.75 * decay;
+}
+
+// Directions in which the receiver's own patch is measured, over half a turn.
+const int outlineDirections = 64;
+
+// Integral of Burley's profile over the receiver's own patch, around whose middle R has a pole: the mean, over directions on
+// the surface, of the share within the distance to the patch's outline.
+vec3 burleyOwnMass(TangentPlane surface, vec3 meanFreePath) {
+    vec3 along = normalize(surface.x);
+    vec3 across = surface.y - along * dot(surface.y, along);
+    float acrossLength = length(across);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < outlineDirections; ++i) {
+        float angle = (float(i) + 0.5) * pi / float(outlineDirections);
+        float v = sin(angle) / acrossLength; // in steps of y and of x
+        float u = (cos(angle) - v * dot(surface.y, along)) / length(surface.x);
+        sum += burleyWithin(0.5 / max(abs(u), abs(v)), meanFreePath);
+    }
+    return sum / float(outlineDirections);
+}
+
+// How finely a patch is sampled: `samples` a pixel's size, and no more than maxFineness times as many where the patch is
+// longer than that.
+const float maxFineness = 6.0;
+
+int samplesAlong(vec3 side, float size, int samples) {
+    return int(ceil(float(samples) * clamp(length(side) / size, 1.0, maxFineness)));
+}
+
+// The mean of Burley's profile over another pixel's patch.
+vec3 burleyMean(Receiver receiver, vec3 middle, TangentPlane surface, int samples, vec3 meanFreePath) {
+    float size = length(vec2(stepX(middle.z)));
+    ivec2 count = ivec2(samplesAlong(surface.x, size, samples), samplesAlong(surface.y, size, samples));
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < count.x * count.y; ++i) {
+        vec2 inside = (vec2(i % count.x, i / count.x) + 0.5) / vec2(count) - 0.5;
+        vec3 point = middle + inside.x * surface.x + inside.y * surface.y;
+        sum += burley(max(distance(point, receiver.position), 1e-6), meanFreePath);
+    }
+    return sum / float(count.x * count.y);
+}
+
+// Burley's profile over the square's patches, the nearest of which are sampled most finely.
 void addBurley(Receiver receiver, vec3 meanFreePath, inout Sum sum) {
     for (int y = -cellRadius; y <= cellRadius; ++y) {
         for (int x = -cellRadius; x <= cellRadius; ++x) {
@@ -133,20 +178,10 @@ void addBurley(Receiver receiver, vec3 meanFreePath, inout Sum sum) {
             if (pixel.light.w <= 0.0) {
                 continue;
             }
-            vec3 weight = vec3(0.0);
-            if (x == 0 && y == 0) {
-                vec3 decay = exp(-sqrt(pixel.light.w / pi) / (3.0 * meanFreePath));
-                weight = 1.0 - 0.25 * decay * decay * decay - 0.75 * decay;
-            } else {
-                TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
-                int samples = max(abs(x), abs(y)) == 1 ? 6 : 2;
-                for (int i = 0; i < samples * samples; ++i) {
-                    vec2 inside = (vec2(i % samples, i / samples) + 0.5) / float(samples) - 0.5;
-                    vec3 point = pixel.position.xyz + inside.x * surface.x + inside.y * surface.y;
-                    weight += burley(max(distance(point, receiver.position), 1e-6), meanFreePath);
-                }
-                weight *= pixel.light.w / float(samples * samples);
-            }
+            TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
+            int ring = max(abs(x), abs(y));
+            vec3 weight = ring == 0 ? burleyOwnMass(surface, meanFreePath)
+                                    : pixel.light.w * burleyMean(receiver, pixel.position.xyz, surface, ring == 1 ? 6 : 2, meanFreePath);
             sum.light += weight * pixel.light.rgb;
             sum.weight += weight;
         }
