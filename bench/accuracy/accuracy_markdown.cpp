@@ -102,10 +102,26 @@ std::string viewList(const AccuracyResults& results) {
     return text + '\n';
 }
 
+/// What the figures hold for.
+std::string conditions(const AccuracyResults& results) {
+    double seconds = 0;
+    std::size_t references = 0;
+    for (const AccuracyViewResult& view : results.views) {
+        for (const AccuracyReference& reference : view.references) {
+            seconds += reference.seconds;
+            ++references;
+        }
+    }
+    return "**This edition** is of " + std::to_string(results.width) + 'x' + std::to_string(results.height) +
+           " pixels, rendered on " + results.device + " by Nacre " + results.nacreVersion + ".\nA reference took " +
+           formatWhole(seconds / static_cast<double>(references)) +
+           " s in the mean. The columns \"noise\" and \"samples a pixel\" say how far that carries.\n\n";
+}
+
 } // namespace
 
 std::string formatAccuracyMarkdown(const AccuracyResults& results) {
-    std::string text = "## The views\n\n" + viewList(results);
+    std::string text = conditions(results) + "## The views\n\n" + viewList(results);
     for (const AccuracyReference& reference : results.views.front().references) {
         const std::string& method = reference.method;
         const bool isWalk = method == "walk";
