@@ -34,6 +34,7 @@ layout(set = 0, binding = bindingThicknessOut) uniform writeonly image2D thickne
 
 #define view parameters.view
 #include "interface/pixel_geometry.glsl"
+#include "shadow_depth.glsl"
 #include "transmittance.glsl"
 
 const uint lightDirectional = 0u; // NacreLightKind
@@ -148,35 +149,6 @@ ShadowPoint project(LightParameters light, Receiver receiver) {
     return point;
 }
 
-// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
-// groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
-mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
-#define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
-#define ROW(index, row)                                                                                                \
-    vec4(TEXEL(index, columns.x, row), TEXEL(index, columns.y, row), TEXEL(index, columns.z, row),                     \
-         TEXEL(index, columns.w, row))
-#define TEXELS(index) mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w))
-#define FETCH(index)                                                                                                   \
-    for (bool here = map == index; here; here = false) {                                                               \
-        stored = TEXELS(index);                                                                                        \
-    }
-#define FETCH_GROUP(first)                                                                                             \
-    for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
-        FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
-    }
-    if (!severalShadowMaps) {
-        return TEXELS(0);
-    }
-    mat4 stored = mat4(0.0);
-    FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
-#undef FETCH_GROUP
-#undef FETCH
-#undef TEXELS
-#undef ROW
-#undef TEXEL
-    return stored;
-}
-
 // How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
 // are compared with the plane, not with the point, so that a slab is as thick under every tap.
 mat2x3 planeSteps(ShadowPoint point, vec3 normal) {
@@ -231,18 +203,17 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     vec4 columns, rows, columnWeights, rowWeights;
     taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);
     taps(point.texel.y, light.shadowSize.y - 1.0, rows, rowWeights);
-    mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
+    mat4 entries = depthsAlongLight(light, columns, rows, point.projection.layer);
     mat2x3 steps = planeSteps(point, receiver.normal);
     vec4 x = columns + 0.5 - point.texel.x;
     vec4 y = rows + 0.5 - point.texel.y;
     PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
     float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
-    float range = light.direction.w * view.mmPerUnit;
     float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
     mat4 thickness;
     for (int i = 0; i < 4; ++i) {
         vec4 depths = plane.constant + plane.slope * y[i];
-        thickness[i] = clamp(depths + (plane.square[i] + removed) - stored[i] * range, 0.0, most);
+        thickness[i] = clamp(depths + (plane.square[i] + removed) - entries[i], 0.0, most);
     }
     float mean = dot(thickness * rowWeights, columnWeights);
     return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
