@@ -8,6 +8,8 @@
 #include "transmit_blocks.h"
 
 layout(constant_id = 0) const bool severalShadowMaps = false; // else all lights have the first
+// Some light has a map with hardware depth, of culled front faces, in an atlas or in cascades, or falls off in its own way.
+layout(constant_id = 1) const bool generalLights = false;
 
 layout(local_size_x = 8, local_size_y = 16) in;
 layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
@@ -34,13 +36,15 @@ layout(set = 0, binding = bindingThicknessOut) uniform writeonly image2D thickne
 
 #define view parameters.view
 #include "interface/pixel_geometry.glsl"
-#include "shadow_depth.glsl"
+#include "interface/encoded_inputs.glsl"
 #include "transmittance.glsl"
 
 const uint lightDirectional = 0u; // NacreLightKind
 const uint lightSpot = 1u;
 const uint lightPoint = 2u;
 const uint noShadowMap = 0xffffffffu;
+
+#include "shadow_depth.glsl"
 
 // [1] Least cosine between -normal and the light by which the receiver's offset is turned into thickness.
 const float leastCosine = 0.2;
@@ -99,6 +103,10 @@ Incidence incidenceAt(LightParameters light, vec3 position) {
     vec3 toLight = offset * inversesqrt(squared);
     float meters = light.irradiance.w;
     float attenuation = 1.0 / (squared * meters * meters);
+    if (generalLights) {
+        float distance = sqrt(squared) * meters;
+        attenuation = 1.0 / dot(light.attenuation.xyz, vec3(1.0, distance, distance * distance));
+    }
     if (light.position.w > 0.0) {
         float share = squared / (light.position.w * light.position.w);
         attenuation *= clamp(1.0 - share * share, 0.0, 1.0);
@@ -210,6 +218,10 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
     float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
     float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
+    if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
+        entries -= receiver.authored;
+        most = 1e30;
+    }
     mat4 thickness;
     for (int i = 0; i < 4; ++i) {
         vec4 depths = plane.constant + plane.slope * y[i];
@@ -218,6 +230,8 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     float mean = dot(thickness * rowWeights, columnWeights);
     return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
 }
+
+#include "shadow_cascades.glsl"
 
 // The pixel that shows a view-space position, mm.
 vec2 pixelOf(vec3 position) {
@@ -235,7 +249,7 @@ float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolera
         return 1.0;
     }
     float z = viewZ(pixel);
-    vec3 normal = texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias;
+    vec3 normal = worldNormal(texelFetch(normalImage, pixel, 0).xyz);
     if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
         return 1.0;
     }
@@ -261,7 +275,14 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     if (light.shadowMap != noShadowMap) {
         point = project(light, receiver);
     }
-    for (bool inside = point.inside; inside; inside = false) { // software devices skip it where no pixel is inside
+    if (isFrontFaceCulled(light) && receiver.authored <= 0.0) {
+        return through;
+    }
+    bool inCascades = generalLights && light.cascadeCount > 0u;
+    for (bool inside = inCascades; inside; inside = false) {
+        through = throughCascades(light, receiver, cosine, point);
+    }
+    for (bool inside = point.inside && !inCascades; inside; inside = false) { // software devices skip it where no pixel is inside
         through = filteredTransmittance(light, receiver, point, cosine);
     }
     if (!point.inside && receiver.authored > 0.0) {
@@ -287,14 +308,14 @@ void main() {
         return;
     }
     ivec2 pixel = local + view.areaOffset;
-    uint id = texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u);
+    uint id = materialIdAt(pixel) & (materialIdCount - 1u);
     uint slot = id != 0u ? slots[id] : 0u; // most pixels then wait for their id alone
     if (slot == 0u) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;
     }
     float z = viewZ(pixel);
-    vec3 normal = normalize(texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias);
+    vec3 normal = normalize(worldNormal(texelFetch(normalImage, pixel, 0).xyz));
     if (!isValidZ(z) || !isFinite(normal)) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;
