@@ -67,6 +67,8 @@ struct Pass {
     bool hasSeveralShadowMaps = false;
     /// The same with the constant albedoOrStrength, for calls with such an image or a material of strength below 1.
     bool hasAlbedoOrStrength = false;
+    /// The same with the constant generalLights, for calls with a light that asks for more than a linear map of its own.
+    bool hasGeneralLights = false;
 };
 
 /// Which of a pass's pipelines: a bit for every specialization constant that is true, by its constant_id.
@@ -74,12 +76,13 @@ using Variant = std::uint32_t;
 inline constexpr Variant separateMaterials = 1u << 0;
 inline constexpr Variant severalShadowMaps = 1u << 0; // transmit's, where the former is scatter's
 inline constexpr Variant albedoOrStrength = 1u << 1;
+inline constexpr Variant generalLights = 1u << 1; // transmit's, where the former is scatter's
 inline constexpr std::size_t variantCount = 4;
 
 /// The constants that a pass has.
 constexpr Variant variantsOf(const Pass& pass) {
     return (pass.hasSeparateMaterials ? separateMaterials : 0) | (pass.hasSeveralShadowMaps ? severalShadowMaps : 0) |
-           (pass.hasAlbedoOrStrength ? albedoOrStrength : 0);
+           (pass.hasAlbedoOrStrength ? albedoOrStrength : 0) | (pass.hasGeneralLights ? generalLights : 0);
 }
 
 /// Dispatches of a pass for a render area.
@@ -124,11 +127,13 @@ struct Technique {
 };
 
 extern const Technique transmitTechnique;
+extern const Technique composeTechnique;
 
-/// The index of a technique of scatter is NacreTechnique - 1; transmission comes last.
+/// The index of a technique of scatter is NacreTechnique - 1; transmission and composing come last.
 inline constexpr std::size_t scatterTechniqueCount = NACRE_TECHNIQUE_COUNT - 1;
 inline constexpr std::size_t transmitIndex = scatterTechniqueCount;
-inline constexpr std::size_t techniqueCount = scatterTechniqueCount + 1;
+inline constexpr std::size_t composeIndex = transmitIndex + 1;
+inline constexpr std::size_t techniqueCount = composeIndex + 1;
 extern const std::array<const Technique*, techniqueCount> techniques;
 
 /// Of all techniques, by number; a number that no technique has lacks a name.

@@ -1,4 +1,4 @@
-// The one table of techniques. It is in the order of NacreTechnique, then transmission.
+// The one table of techniques. It is in the order of NacreTechnique, then transmission and composing.
 #include "technique.hpp"
 
 namespace nacre::effect {
@@ -17,7 +17,7 @@ static const Technique thesisTechnique{};
 
 const std::array<const Technique*, techniqueCount> techniques{
     &separableTechnique, &bruteTechnique,        &bankTechnique,    &burleyTechnique,
-    &thesisTechnique,    &bankSurfacesTechnique, &transmitTechnique};
+    &thesisTechnique,    &bankSurfacesTechnique, &transmitTechnique, &composeTechnique};
 
 IntermediateSet Technique::uses() const {
     IntermediateSet set = 0;

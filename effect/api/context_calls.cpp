@@ -63,6 +63,15 @@ void openDevice(Device& device, const NacreContextInfo& info) {
     if (!features.features.shaderStorageImageWriteWithoutFormat) {
         fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device lacks the feature shaderStorageImageWriteWithoutFormat");
     }
+    if (info.enabledFeatures && !info.enabledFeatures->shaderStorageImageWriteWithoutFormat) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE,
+             "NacreContextInfo::enabledFeatures lacks shaderStorageImageWriteWithoutFormat, which the device has: enable it "
+             "when the device is created (nacreGetRequirements)");
+    }
+    if (!device.vk.GetDeviceProcAddr(info.device, "vkCreateRenderPass2")) {
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device does not know vkCreateRenderPass2 of Vulkan 1.2: "
+             "VkApplicationInfo::apiVersion of NacreContextInfo::instance must be at least VK_API_VERSION_1_2");
+    }
     if (info.shaderFloat16 && !features12.shaderFloat16) {
         fail(NACRE_ERROR_UNSUPPORTED_DEVICE,
              "NacreContextInfo::shaderFloat16 is set, but the device lacks the feature shaderFloat16");
@@ -92,8 +101,30 @@ std::array<bool, techniqueCount> enabledTechniques(std::uint32_t mask) {
         }
         enabled[i] = isAsked || (mask == 0 && techniques[i]->isBuilt());
     }
-    enabled[transmitIndex] = true;
+    enabled[transmitIndex] = enabled[composeIndex] = true;
     return enabled;
+}
+
+void setEncodings(Context& context, const NacreContextInfo& info) {
+    if (info.materialIdMask > NACRE_MAX_MATERIALS) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::materialIdMask is ", info.materialIdMask,
+             ", must be in [0, ", NACRE_MAX_MATERIALS, "]");
+    }
+    if (info.materialIdShift > 15) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::materialIdShift is ", info.materialIdShift,
+             ", must be in [0, 15]");
+    }
+    if (info.normalEncoding != NACRE_NORMAL_XYZ && info.normalEncoding != NACRE_NORMAL_OCTAHEDRAL) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::normalEncoding is ", static_cast<int>(info.normalEncoding),
+             ", must be a NacreNormalEncoding");
+    }
+    if (info.normalSpace != NACRE_NORMAL_WORLD && info.normalSpace != NACRE_NORMAL_VIEW) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::normalSpace is ", static_cast<int>(info.normalSpace),
+             ", must be a NacreNormalSpace");
+    }
+    context.noMaterialIds = info.noMaterialIds;
+    context.normalEncoding = info.normalEncoding;
+    context.normalSpace = info.normalSpace;
 }
 
 /// Makes everything that takes memory, and no memory yet.
@@ -108,6 +139,7 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
     context.userData = info.userData;
     context.enabled = enabledTechniques(info.techniques);
     context.shaderFloat16 = info.shaderFloat16;
+    setEncodings(context, info);
     openDevice(context.device, info);
     checkExtent(context.device, info.maxExtent);
     for (std::size_t i = 0; i < techniqueCount; ++i) {
@@ -118,7 +150,9 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
     context.maxExtent = info.maxExtent;
     context.intermediates = createIntermediates(
         context.device, context.scatter.intermediates | context.transmit.intermediates, info.maxExtent);
-    context.materials.emplace(context.device, materials, frames, context.enabled);
+    context.materials.emplace(context.device, materials, frames, context.enabled,
+                              IdBits{info.materialIdMask == 0 ? NACRE_MAX_MATERIALS : info.materialIdMask,
+                                     info.materialIdShift});
     context.uniforms = createUniforms(context, frames, records);
 }
 
@@ -161,16 +195,18 @@ void create(Context& context, const NacreContextInfo& info) {
     createFrames(context, frameCount(info), recordCount(info));
 }
 
-void resize(Context& context, VkExtent2D maxExtent) {
+void resize(Context& context, VkExtent2D maxExtent, const NacreMemory* deviceMemory) {
     checkExtent(context.device, maxExtent);
+    const NacreMemory& given = deviceMemory ? *deviceMemory : context.givenMemory;
+    const char* field = deviceMemory ? "deviceMemory" : "NacreContextInfo::deviceMemory";
     Owned<VkDeviceMemory> memory; // freed after its resources are destroyed
     IntermediateResources resources =
         createIntermediates(context.device, context.scatter.intermediates | context.transmit.intermediates, maxExtent);
-    memory = layOut(context.device, resources)
-                 .place(MemoryUse::Device, context.givenMemory, "NacreContextInfo::deviceMemory");
+    memory = layOut(context.device, resources).place(MemoryUse::Device, given, field);
     std::swap(context.intermediates, resources);
     std::swap(context.intermediateMemory, memory);
     context.maxExtent = maxExtent;
+    context.givenMemory = given;
 }
 
 void setMaterials(Context& context, std::uint32_t firstId, std::uint32_t count, const NacreMaterial* materials) {
@@ -198,6 +234,7 @@ void beginFrame(Context& context, std::uint32_t index) {
     context.frame = index;
     frame.scatter.used = 0;
     frame.transmit.used = 0;
+    frame.compose.used = 0;
 }
 
 /// The names of every technique's passes, for NacreCost::passNames.
@@ -271,11 +308,11 @@ void nacreDestroyContext(NacreContext context) {
     delete context;
 }
 
-NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent) {
+NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent, const NacreMemory* deviceMemory) {
     if (!context) {
         return NACRE_ERROR_INVALID_ARGUMENT;
     }
-    return guard(context->messageCallback, context->userData, [&] { resize(*context, maxExtent); });
+    return guard(context->messageCallback, context->userData, [&] { resize(*context, maxExtent, deviceMemory); });
 }
 
 NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count, const NacreMaterial* materials) {
@@ -311,5 +348,15 @@ NacreResult nacreGetTransmitCost(NacreContext context, NacreCost* cost) {
     return guard(context->messageCallback, context->userData, [&] {
         checkGiven(cost, "cost");
         *cost = costOf(*context, transmitIndex);
+    });
+}
+
+NacreResult nacreGetComposeCost(NacreContext context, NacreCost* cost) {
+    if (!context) {
+        return NACRE_ERROR_INVALID_ARGUMENT;
+    }
+    return guard(context->messageCallback, context->userData, [&] {
+        checkGiven(cost, "cost");
+        *cost = costOf(*context, composeIndex);
     });
 }

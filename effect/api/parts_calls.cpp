@@ -90,6 +90,7 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.hasSeparateMaterials = pass.hasSeparateMaterials;
     result.hasSeveralShadowMaps = pass.hasSeveralShadowMaps;
     result.hasAlbedoOrStrength = pass.hasAlbedoOrStrength;
+    result.hasGeneralLights = pass.hasGeneralLights;
     if (pass.isIndirect()) {
         result.indirectBinding = bindingIntermediates + pass.indirect;
         result.indirectOffset = pass.indirectOffset;
@@ -180,12 +181,20 @@ NacreResult nacreFillTransmitParameters(const NacreTransmitInfo* info, uint32_t 
     });
 }
 
+uint32_t nacreGetLightElementCount(const NacreTransmitInfo* info) {
+    return info && (info->lights || info->lightCount == 0) ? lightElementCount(*info) : 0;
+}
+
+VkBool32 nacreNeedsGeneralLights(const NacreTransmitInfo* info) {
+    return info && (info->lights || info->lightCount == 0) && needGeneralLights(*info) ? VK_TRUE : VK_FALSE;
+}
+
 NacreResult nacreFillLights(const NacreTransmitInfo* info, const NacreMessages* messages, size_t size, void* data) {
     return guarded(messages, [&] {
         checkGiven(info, "NacreTransmitInfo");
         checkLights(*info);
         if (info->lightCount > 0) {
-            checkBlock(data, size, info->lightCount * sizeof(LightParameters));
+            checkBlock(data, size, lightElementCount(*info) * sizeof(LightParameters));
             fillLights(*info, static_cast<std::byte*>(data));
         }
     });

@@ -19,7 +19,6 @@ constexpr struct {
 } images[] = {
     {NACRE_IMAGE_IRRADIANCE, &NacreScatterInfo::irradiance, "NacreScatterInfo::irradiance"},
     {NACRE_IMAGE_DEPTH, &NacreScatterInfo::depth, "NacreScatterInfo::depth"},
-    {NACRE_IMAGE_MATERIAL_ID, &NacreScatterInfo::materialId, "NacreScatterInfo::materialId"},
     {NACRE_IMAGE_NORMAL, &NacreScatterInfo::normal, "NacreScatterInfo::normal"},
     {NACRE_IMAGE_STRENGTH, &NacreScatterInfo::strength, "NacreScatterInfo::strength"},
     {NACRE_IMAGE_ALBEDO, &NacreScatterInfo::albedo, "NacreScatterInfo::albedo"},
@@ -27,11 +26,13 @@ constexpr struct {
 };
 
 /// Checks all images; returns those that are given.
-ImageSet checkImages(const NacreScatterInfo& info, const VkRect2D& area) {
+ImageSet checkImages(const Context& context, const NacreScatterInfo& info, const VkRect2D& area) {
     ImageSet given = 0;
     for (const auto& [slot, image, field] : images) {
         given |= checkImage(info.*image, slot, area, field) ? 1u << slot : 0u;
     }
+    checkMaterialId(info.materialId, context.noMaterialIds, area, "NacreScatterInfo::materialId");
+    checkNormals(info.normal, context.normalEncoding, "NacreScatterInfo::normal");
     if (info.scattered.view == info.irradiance.view) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreScatterInfo::scattered.view is the irradiance's, must be another");
     }
@@ -49,7 +50,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     constexpr const char* name = "NacreScatterInfo";
     const std::size_t asked = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
     const VkRect2D area = renderArea(info.view, info.irradiance.extent, context.maxExtent, name);
-    const ImageSet given = checkImages(info, area);
+    const ImageSet given = checkImages(context, info, area);
     CallResources& call = nextCall(context, info.frame, &Frame::scatter, name);
     const MaterialTable::Summary& materials = context.materials->summary(info.frame);
     const std::size_t technique = chosenTechniqueIndex(context, asked, materials);
@@ -63,7 +64,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
     descriptors.storage(bindingTables, context.materials->table(info.frame, technique));
     descriptors.sampled(bindingDepth, info.depth, info.depth);
-    descriptors.sampled(bindingMaterialId, info.materialId, info.materialId);
+    descriptors.sampled(bindingMaterialId, info.materialId, info.depth);
     descriptors.sampled(bindingNormal, info.normal, info.irradiance);
     descriptors.sampled(bindingStrength, info.strength, info.irradiance);
     descriptors.sampled(bindingIrradiance, info.irradiance, info.irradiance);

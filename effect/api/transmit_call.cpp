@@ -16,7 +16,6 @@ constexpr struct {
     const char* field;
 } images[] = {
     {NACRE_IMAGE_DEPTH, &NacreTransmitInfo::depth, "NacreTransmitInfo::depth"},
-    {NACRE_IMAGE_MATERIAL_ID, &NacreTransmitInfo::materialId, "NacreTransmitInfo::materialId"},
     {NACRE_IMAGE_NORMAL, &NacreTransmitInfo::normal, "NacreTransmitInfo::normal"},
     {NACRE_IMAGE_THICKNESS, &NacreTransmitInfo::thickness, "NacreTransmitInfo::thickness"},
     {NACRE_IMAGE_STRENGTH, &NacreTransmitInfo::strength, "NacreTransmitInfo::strength"},
@@ -25,11 +24,13 @@ constexpr struct {
 };
 
 /// Checks all images but the shadow maps; returns those that are given.
-ImageSet checkImages(const NacreTransmitInfo& info, const VkRect2D& area) {
+ImageSet checkImages(const Context& context, const NacreTransmitInfo& info, const VkRect2D& area) {
     ImageSet given = 0;
     for (const auto& [slot, image, field] : images) {
         given |= checkImage(info.*image, slot, area, field) ? 1u << slot : 0u;
     }
+    checkMaterialId(info.materialId, context.noMaterialIds, area, "NacreTransmitInfo::materialId");
+    checkNormals(info.normal, context.normalEncoding, "NacreTransmitInfo::normal");
     if ((given >> NACRE_IMAGE_NORMAL & 1u) == 0) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::normal.view is null, the image is required");
     }
@@ -42,6 +43,11 @@ void checkLightsAndMaps(const Context& context, const NacreTransmitInfo& info) {
              ", NacreContextInfo::maxLights is ", context.maxLights);
     }
     checkLights(info);
+    if (const std::uint32_t elements = lightElementCount(info); elements > context.maxLights) {
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, "NacreTransmitInfo::lights have ", elements - info.lightCount,
+             " cascades, with the ", info.lightCount, " lights these are ", elements,
+             "; NacreContextInfo::maxLights is ", context.maxLights);
+    }
     for (std::uint32_t i = 0; i < info.shadowMapCount; ++i) {
         checkShadowMap(info.shadowMaps[i], FieldName("NacreTransmitInfo::shadowMaps").at(i));
     }
@@ -49,7 +55,7 @@ void checkLightsAndMaps(const Context& context, const NacreTransmitInfo& info) {
 
 void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransmitInfo& info) {
     const VkRect2D area = renderArea(info.view, info.depth.extent, context.maxExtent, "NacreTransmitInfo");
-    const ImageSet given = checkImages(info, area);
+    const ImageSet given = checkImages(context, info, area);
     const TransmitParameters parameters = transmitParameters(info, given, area);
     checkLightsAndMaps(context, info);
     CallResources& call = nextCall(context, info.frame, &Frame::transmit, "NacreTransmitInfo");
@@ -66,7 +72,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.storage(bindingTables, context.materials->table(info.frame, transmitIndex));
     descriptors.storage(bindingLights, call.lights);
     descriptors.sampled(bindingDepth, info.depth, info.depth);
-    descriptors.sampled(bindingMaterialId, info.materialId, info.materialId);
+    descriptors.sampled(bindingMaterialId, info.materialId, info.depth);
     descriptors.sampled(bindingNormal, info.normal, info.normal);
     descriptors.sampled(bindingStrength, info.strength, info.normal);
     descriptors.sampled(bindingThickness, info.thickness, info.normal);
@@ -78,7 +84,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, call.set, area.extent, info.timestamps,
-                  maps.empty() ? transmitTechnique.uses() : 0, 0, maps.size() > 1 ? severalShadowMaps : 0});
+                  maps.empty() ? transmitTechnique.uses() : 0, 0, (maps.size() > 1 ? severalShadowMaps : 0) | (needGeneralLights(info) ? generalLights : 0)});
 }
 
 } // namespace

@@ -48,7 +48,7 @@ int depthPlace(ivec2 pixel) {
 uvec4 fetchIds(ivec2 first) {
     uvec4 ids;
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        ids[i] = texelFetch(materialIdImage, ownPixel(first + offsetOf(i)), 0).r;
+        ids[i] = materialIdAt(ownPixel(first + offsetOf(i)));
     }
     bvec2 begins = lessThan(first, view.areaExtent);
     bvec2 ends = lessThan(first + 1, view.areaExtent);
@@ -75,7 +75,7 @@ ivec2 ringPlace(int thread) {
 
 RingPixel fetchRing(ivec2 tileFirst, ivec2 place) {
     ivec2 pixel = imagePixel(tileFirst + place);
-    uint id = texelFetch(materialIdImage, pixel, 0).r;
+    uint id = materialIdAt(pixel);
     float depth = texelFetch(depthImage, pixel, 0).r;
     return RingPixel(pixel, depthPlace(place), isInExtent(tileFirst + place) ? materialOfId(id) : 0u, depth);
 }

@@ -1,6 +1,7 @@
 // Errors inside the effect are exceptions; the C border (guard.hpp) turns them into a code and a message.
 #pragma once
 
+#include "contract/vulkan_names.hpp"
 #include "nacre/nacre.h"
 
 #include <array>
@@ -57,7 +58,7 @@ inline void check(VkResult result, const char* call) {
              " memory");
     }
     if (result != VK_SUCCESS) {
-        fail(NACRE_ERROR_VULKAN, call, " returned VkResult ", static_cast<int>(result));
+        fail(NACRE_ERROR_VULKAN, call, " returned ", ResultName{result});
     }
 }
 

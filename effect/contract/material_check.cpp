@@ -56,6 +56,7 @@ MaterialParameters parametersOf(const NacreMaterial& from, const Profile& profil
     parameters.thickness = from.thickness;
     parameters.exchangeGroups = from.exchangeGroups;
     parameters.preAndPost = from.albedoUse == NACRE_ALBEDO_PRE_AND_POST;
+    parameters.thinWall = from.thinWall != VK_FALSE;
     parameters.secondSurfaces = from.secondSurfaces != VK_FALSE;
     return parameters;
 }

@@ -44,7 +44,7 @@ ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given
     view.flags = flagsOf(given) | (info.skipUnscattered ? flagSkipUnscattered : 0u);
     view.flags |= albedoBefore && (view.flags & flagAlbedo) != 0 ? flagAlbedoBefore : 0u;
     setNormals(view, info, name);
-    setView(view, info.view, area, (view.flags & flagNormal) != 0, name);
+    setView(view, info.view, viewport(info.view, info.irradiance.extent), area, (view.flags & flagNormal) != 0, name);
     parameters.pixelWidth = pixelWidth(view);
     for (const Technique* technique : techniques) {
         if (technique->setParameters) {
@@ -62,10 +62,20 @@ TransmitParameters transmitParameters(const NacreTransmitInfo& info, ImageSet gi
     checkRange(info.normalOffset, 0, 1000, "NacreTransmitInfo::normalOffset");
     checkRange(info.filterRadius, 0, 1000, "NacreTransmitInfo::filterRadius");
     setNormals(view, info, name);
-    setView(view, info.view, area, true, name);
+    setView(view, info.view, viewport(info.view, info.depth.extent), area, true, name);
     view.lightCount = info.lightCount;
     parameters.normalOffset = info.normalOffset == 0 ? 1.5f : info.normalOffset;
     parameters.filterRadius = info.filterRadius == 0 ? 2.0f : info.filterRadius;
+    return parameters;
+}
+
+ScatterParameters composeParameters(const NacreComposeInfo& info, ImageSet given, const VkRect2D& area) {
+    ScatterParameters parameters{};
+    ViewParameters& view = parameters.view;
+    view.areaOffset = {area.offset.x, area.offset.y};
+    view.areaExtent = {static_cast<std::int32_t>(area.extent.width), static_cast<std::int32_t>(area.extent.height)};
+    view.flags = flagsOf(given) | (info.transmitted.view != VK_NULL_HANDLE ? flagTransmitted : 0u) |
+                 (info.scatteredHasAlbedo ? flagScatteredHasAlbedo : 0u);
     return parameters;
 }
 

@@ -16,5 +16,7 @@ ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given
                                     bool albedoBefore);
 /// Normals are always given.
 TransmitParameters transmitParameters(const NacreTransmitInfo& info, ImageSet given, const VkRect2D& area);
+/// Of the view only what is worked on, since compose asks for no place.
+ScatterParameters composeParameters(const NacreComposeInfo& info, ImageSet given, const VkRect2D& area);
 
 } // namespace nacre::effect

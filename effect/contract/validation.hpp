@@ -25,8 +25,10 @@ void checkRange(float value, float low, float high, const FieldName& field);
 /// Throws when a value is not finite.
 void checkFinite(std::span<const float> values, const FieldName& field);
 
-/// The part of the images that is worked on: `view.renderArea`, or all of `extent`. Throws when it is empty, larger
-/// than maxExtent or reaches out of the image.
+/// What the projection maps to: `view.renderArea`, or all of `extent`.
+VkRect2D viewport(const NacreView& view, VkExtent2D extent);
+/// The part of the images that is worked on: the viewport, or `view.scissor` in it. Throws when it is empty, or larger than
+/// maxExtent.
 VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const FieldName& info);
 
 /// Throws when an image of this extent does not cover the area.
@@ -34,6 +36,10 @@ void checkCovers(VkExtent2D extent, const VkRect2D& area, const FieldName& field
 /// Throws when an image (required unless its slot is optional) lacks what its slot needs or does not cover the area.
 /// `field` is the struct and member, e.g. "NacreScatterInfo::depth". Returns whether it is given.
 bool checkImage(const NacreImage& image, NacreImageSlot slot, const VkRect2D& area, const FieldName& field);
+/// Throws where normals of this encoding do not fit into the image's format.
+void checkNormals(const NacreImage& image, NacreNormalEncoding encoding, const FieldName& field);
+/// checkImage of the ids, which a context without them must not be given.
+void checkMaterialId(const NacreImage& image, bool noMaterialIds, const VkRect2D& area, const FieldName& field);
 /// The same for an image whose pixels are not the view's: a shadow map.
 void checkShadowMap(const NacreImage& image, const FieldName& field);
 

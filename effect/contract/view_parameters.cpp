@@ -120,8 +120,8 @@ double mmPerUnit(const NacreView& view, const FieldName& info) {
     return 1000.0 * metersPerUnit;
 }
 
-void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& area, bool worldMatrix,
-             const FieldName& info) {
+void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& viewport, const VkRect2D& area,
+             bool worldMatrix, const FieldName& info) {
     const FieldName clipField = info + "::view.clipFromView";
     checkFinite(view.clipFromView, clipField);
     if (view.depthEncoding != NACRE_DEPTH_LINEAR && view.depthEncoding != NACRE_DEPTH_HARDWARE) {
@@ -138,7 +138,7 @@ void setView(ViewParameters& parameters, const NacreView& view, const VkRect2D& 
         fail(NACRE_ERROR_INVALID_ARGUMENT, clipField, "[11] is ", clip(3, 2), " and [15] is ", clip(3, 3),
              ": clip w must be positive in front of the camera, which looks along -Z");
     }
-    setRays(parameters, clip, area, unit, clipField);
+    setRays(parameters, clip, viewport, unit, clipField);
     if (worldMatrix) {
         checkFinite(view.viewFromWorld, info + "::view.viewFromWorld");
         setWorld(parameters, Matrix{view.viewFromWorld}, unit, info + "::view.viewFromWorld");

@@ -39,7 +39,15 @@ NACRE_CONSTANT flagThicknessOut = 16u;
 NACRE_CONSTANT flagThesisTransmittance = 32u;
 NACRE_CONSTANT flagHardwareDepth = 64u;
 NACRE_CONSTANT flagSkipUnscattered = 128u; // NacreScatterInfo::skipUnscattered
+NACRE_CONSTANT flagTransmitted = 512u;        // compose: there is transmitted light
+NACRE_CONSTANT flagScatteredHasAlbedo = 1024u; // NacreComposeInfo::scatteredHasAlbedo
 NACRE_CONSTANT flagAlbedoBefore = 256u;    // with flagAlbedo: some material may apply it before scattering, too
+
+// Ids of the specialization constants of encoded_inputs.glsl, and the bits of normalEncoding.
+NACRE_CONSTANT constantNoMaterialIds = 1000;
+NACRE_CONSTANT constantNormalEncoding = 1001;
+NACRE_CONSTANT normalOctahedral = 1u;
+NACRE_CONSTANT normalInViewSpace = 2u;
 
 // A camera. Lengths in mm, pixels are those of the whole image. A pixel's view-space position at view depth z is
 // (ray·z + origin, z) with ray = rayX·pixel.x + rayY·pixel.y + rayBias and origin alike (pixel_geometry.glsl).
@@ -85,7 +93,7 @@ struct MaterialParameters {
     uint exchangeGroups;
     uint preAndPost;
     uint secondSurfaces; // NacreMaterial::secondSurfaces, which no shader asks
-    uint unused0;
+    uint thinWall;
 };
 
 #ifdef __cplusplus

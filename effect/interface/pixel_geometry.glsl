@@ -98,8 +98,3 @@ vec2 stepX(float z) {
 vec2 stepY(float z) {
     return view.rayY * z + view.originY;
 }
-
-// The normal image's value, in view space, unit length.
-vec3 viewNormal(vec3 value) {
-    return normalize(mat3(view.viewFromWorld) * (value * view.normalScale + view.normalBias));
-}

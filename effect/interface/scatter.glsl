@@ -21,6 +21,7 @@ layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredI
 
 #define view parameters.view
 #include "pixel_geometry.glsl"
+#include "encoded_inputs.glsl"
 
 // The largest light of an intermediate of half floats; larger would be infinite, and the next pass would spread it.
 const float maxHalf = 65504.0;
@@ -31,7 +32,7 @@ uint materialOfId(uint id) {
 }
 
 uint materialAt(ivec2 pixel) {
-    return materialOfId(texelFetch(materialIdImage, pixel, 0).r);
+    return materialOfId(materialIdAt(pixel));
 }
 
 // Whether light that enters material `from` may leave material `to`: one material, or a common exchange group.

@@ -5,12 +5,17 @@
 #include "nacre/nacre.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace nacre::effect {
 
 /// Checks lights and the number of shadow maps. A light's map must be one of them.
 void checkLights(const NacreTransmitInfo& info);
-/// Fills lightCount LightParameters of lights that were checked.
+/// How many LightParameters they take: one a light, then one a cascade.
+std::uint32_t lightElementCount(const NacreTransmitInfo& info);
+/// Whether the pass has to have the constant generalLights.
+bool needGeneralLights(const NacreTransmitInfo& info);
+/// Fills lightElementCount LightParameters of lights that were checked.
 void fillLights(const NacreTransmitInfo& info, std::byte* to);
 
 } // namespace nacre::effect

@@ -8,6 +8,8 @@
 #include "transmit_blocks.h"
 
 layout(constant_id = 0) const bool severalShadowMaps = false; // else all lights have the first
+// Some light has a map with hardware depth, of culled front faces, in an atlas or in cascades, or falls off in its own way.
+layout(constant_id = 1) const bool generalLights = false;
 
 layout(local_size_x = 8, local_size_y = 16) in;
 layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
@@ -34,12 +36,15 @@ layout(set = 0, binding = bindingThicknessOut) uniform writeonly image2D thickne
 
 #define view parameters.view
 #include "interface/pixel_geometry.glsl"
+#include "interface/encoded_inputs.glsl"
 #include "transmittance.glsl"
 
 const uint lightDirectional = 0u; // NacreLightKind
 const uint lightSpot = 1u;
 const uint lightPoint = 2u;
 const uint noShadowMap = 0xffffffffu;
+
+#include "shadow_depth.glsl"
 
 // [1] Least cosine between -normal and the light by which the receiver's offset is turned into thickness.
 const float leastCosine = 0.2;
@@ -98,6 +103,10 @@ Incidence incidenceAt(LightParameters light, vec3 position) {
     vec3 toLight = offset * inversesqrt(squared);
     float meters = light.irradiance.w;
     float attenuation = 1.0 / (squared * meters * meters);
+    if (generalLights) {
+        float distance = sqrt(squared) * meters;
+        attenuation = 1.0 / dot(light.attenuation.xyz, vec3(1.0, distance, distance * distance));
+    }
     if (light.position.w > 0.0) {
         float share = squared / (light.position.w * light.position.w);
         attenuation *= clamp(1.0 - share * share, 0.0, 1.0);
@@ -146,35 +155,6 @@ ShadowPoint project(LightParameters light, Receiver receiver) {
     point.inside = point.w > 0.0 && all(greaterThanEqual(point.texel, vec2(0.0))) &&
                    all(lessThanEqual(point.texel, light.shadowSize));
     return point;
-}
-
-// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
-// groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
-mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
-#define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
-#define ROW(index, row)                                                                                                \
-    vec4(TEXEL(index, columns.x, row), TEXEL(index, columns.y, row), TEXEL(index, columns.z, row),                     \
-         TEXEL(index, columns.w, row))
-#define TEXELS(index) mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w))
-#define FETCH(index)                                                                                                   \
-    for (bool here = map == index; here; here = false) {                                                               \
-        stored = TEXELS(index);                                                                                        \
-    }
-#define FETCH_GROUP(first)                                                                                             \
-    for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
-        FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
-    }
-    if (!severalShadowMaps) {
-        return TEXELS(0);
-    }
-    mat4 stored = mat4(0.0);
-    FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
-#undef FETCH_GROUP
-#undef FETCH
-#undef TEXELS
-#undef ROW
-#undef TEXEL
-    return stored;
 }
 
 // How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
@@ -231,22 +211,27 @@ vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint
     vec4 columns, rows, columnWeights, rowWeights;
     taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);
     taps(point.texel.y, light.shadowSize.y - 1.0, rows, rowWeights);
-    mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
+    mat4 entries = depthsAlongLight(light, columns, rows, point.projection.layer);
     mat2x3 steps = planeSteps(point, receiver.normal);
     vec4 x = columns + 0.5 - point.texel.x;
     vec4 y = rows + 0.5 - point.texel.y;
     PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
     float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
-    float range = light.direction.w * view.mmPerUnit;
     float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
+    if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
+        entries -= receiver.authored;
+        most = 1e30;
+    }
     mat4 thickness;
     for (int i = 0; i < 4; ++i) {
         vec4 depths = plane.constant + plane.slope * y[i];
-        thickness[i] = clamp(depths + (plane.square[i] + removed) - stored[i] * range, 0.0, most);
+        thickness[i] = clamp(depths + (plane.square[i] + removed) - entries[i], 0.0, most);
     }
     float mean = dot(thickness * rowWeights, columnWeights);
     return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
 }
+
+#include "shadow_cascades.glsl"
 
 // The pixel that shows a view-space position, mm.
 vec2 pixelOf(vec3 position) {
@@ -264,7 +249,7 @@ float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolera
         return 1.0;
     }
     float z = viewZ(pixel);
-    vec3 normal = texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias;
+    vec3 normal = worldNormal(texelFetch(normalImage, pixel, 0).xyz);
     if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
         return 1.0;
     }
@@ -290,7 +275,14 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     if (light.shadowMap != noShadowMap) {
         point = project(light, receiver);
     }
-    for (bool inside = point.inside; inside; inside = false) { // software devices skip it where no pixel is inside
+    if (isFrontFaceCulled(light) && receiver.authored <= 0.0) {
+        return through;
+    }
+    bool inCascades = generalLights && light.cascadeCount > 0u;
+    for (bool inside = inCascades; inside; inside = false) {
+        through = throughCascades(light, receiver, cosine, point);
+    }
+    for (bool inside = point.inside && !inCascades; inside; inside = false) { // software devices skip it where no pixel is inside
         through = filteredTransmittance(light, receiver, point, cosine);
     }
     if (!point.inside && receiver.authored > 0.0) {
@@ -316,14 +308,14 @@ void main() {
         return;
     }
     ivec2 pixel = local + view.areaOffset;
-    uint id = texelFetch(materialIdImage, pixel, 0).r & (materialIdCount - 1u);
+    uint id = materialIdAt(pixel) & (materialIdCount - 1u);
     uint slot = id != 0u ? slots[id] : 0u; // most pixels then wait for their id alone
     if (slot == 0u) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;
     }
     float z = viewZ(pixel);
-    vec3 normal = normalize(texelFetch(normalImage, pixel, 0).xyz * view.normalScale + view.normalBias);
+    vec3 normal = normalize(worldNormal(texelFetch(normalImage, pixel, 0).xyz));
     if (!isValidZ(z) || !isFinite(normal)) {
         writeResult(pixel, vec3(0.0), 0.0);
         return;

@@ -49,7 +49,22 @@ struct LightParameters {
     uint shadowLayer;
     float shadowTexel; // scene units, size of a texel where w is 1
     vec2 shadowSize; // texels
+    // The rest is read where the constant generalLights is true.
+    // Hardware depth: from (texel, stored value, 1) to the homogeneous offset from `position`, of which a cube's face has the
+    // length alone.
+    mat4 offsetFromTexel;
+    vec4 attenuation;    // xyz: the irradiance is divided by x + y·d + z·d², d in metres
+    ivec2 shadowOrigin;  // px, of its part of the map
+    vec2 cascadeSpan;    // mm of view depth, from where to where
+    uint shadowFlags;
+    uint firstCascade; // index of its first cascade, which is a light itself but for being dispatched
+    uint cascadeCount;
+    float cascadeBlend;
 };
+
+NACRE_CONSTANT shadowHardwareDepth = 1u;
+NACRE_CONSTANT shadowFrontFacesCulled = 2u;
+NACRE_CONSTANT shadowCascadeByViewDepth = 4u;
 
 #ifdef __cplusplus
 static_assert(offsetof(TransmitParameters, normalOffset) == 256 && sizeof(TransmitParameters) == 272);
@@ -57,7 +72,8 @@ static_assert(maxLayers % 2 == 0); // transmittance.glsl adds two a turn
 static_assert(offsetof(TransmitTable, transmittance) == 16 &&
               sizeof(TransmitTable) == 16 * (1 + maxLayers) + 8 * (transmittanceLast + 2));
 static_assert(offsetof(LightParameters, position) == 48 && offsetof(LightParameters, coneScale) == 96 &&
-              offsetof(LightParameters, shadowSize) == 120 && sizeof(LightParameters) == 128);
+              offsetof(LightParameters, shadowSize) == 120 && offsetof(LightParameters, offsetFromTexel) == 128 &&
+              offsetof(LightParameters, shadowOrigin) == 208 && sizeof(LightParameters) == 240);
 
 } // namespace nacre::effect
 #endif

@@ -62,7 +62,8 @@ constexpr Pass passes[] = {
      .spirv = transmit_spv,
      .reads = bit(intermediateNoShadowMap),
      .grid = tiles<8, 16>,
-     .hasSeveralShadowMaps = true},
+     .hasSeveralShadowMaps = true,
+     .hasGeneralLights = true},
 };
 
 } // namespace

@@ -14,17 +14,17 @@ VkDeviceSize alignUp(VkDeviceSize size, VkDeviceSize alignment) {
 }
 
 Owned<VkDescriptorPool> createPool(const Device& device, std::uint32_t callCount) {
-    // Per call of either kind; the intermediates may be of either type.
+    // Per call of every kind, of which compose has scatter's layout; the intermediates may be of either type.
     const auto count = [callCount](std::uint32_t perCall) { return callCount * perCall; };
     constexpr auto intermediateBindings = maxIntermediates;
     const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count(2)},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count(5 + 2 * intermediateBindings)},
-        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count(11 + maxShadowMaps)},
-        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count(3 + 2 * intermediateBindings)},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count(3)},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count(7 + 3 * intermediateBindings)},
+        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, count(17 + maxShadowMaps)},
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count(4 + 3 * intermediateBindings)},
     };
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = count(2);
+    info.maxSets = count(3);
     info.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
@@ -50,7 +50,7 @@ CallBytes callBytes(const Context& context) {
 Buffer createUniforms(const Context& context, std::uint32_t frameCount, std::uint32_t callsPerFrame) {
     const CallBytes bytes = callBytes(context);
     return createBuffer(context.device,
-                        VkDeviceSize{frameCount} * callsPerFrame * (bytes.scatter + bytes.transmit + bytes.lights),
+                        VkDeviceSize{frameCount} * callsPerFrame * (2 * bytes.scatter + bytes.transmit + bytes.lights),
                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "nacre parameters");
 }
 
@@ -79,6 +79,11 @@ void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t call
     for (Frame& frame : context.frames) {
         frame.scatter.calls.resize(callsPerFrame);
         for (CallResources& call : frame.scatter.calls) {
+            call.set = allocateSet(context.scatter);
+            place(call.parameters, call.mappedParameters, bytes.scatter);
+        }
+        frame.compose.calls.resize(callsPerFrame);
+        for (CallResources& call : frame.compose.calls) {
             call.set = allocateSet(context.scatter);
             place(call.parameters, call.mappedParameters, bytes.scatter);
         }

@@ -19,7 +19,7 @@ struct CallResources {
     std::byte* mappedLights = nullptr;
 };
 
-/// The calls of one kind (scatter or transmit) in one frame.
+/// The calls of one kind (scatter, transmit or compose) in one frame.
 struct FrameCalls {
     std::vector<CallResources> calls;
     std::uint32_t used = 0;
@@ -28,6 +28,7 @@ struct FrameCalls {
 struct Frame {
     FrameCalls scatter;
     FrameCalls transmit;
+    FrameCalls compose;
 };
 
 /// The uniform buffer of all frames, without memory.

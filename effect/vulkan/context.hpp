@@ -22,6 +22,9 @@ struct Context {
     std::uint32_t maxLights = 0;
     std::array<bool, techniqueCount> enabled{};
     bool shaderFloat16 = false; ///< NacreContextInfo::shaderFloat16
+    bool noMaterialIds = false; ///< NacreContextInfo::noMaterialIds
+    NacreNormalEncoding normalEncoding = NACRE_NORMAL_XYZ;
+    NacreNormalSpace normalSpace = NACRE_NORMAL_WORLD;
 
     CallLayout scatter;
     CallLayout transmit;

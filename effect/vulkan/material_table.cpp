@@ -24,8 +24,8 @@ std::size_t tableOf(std::size_t technique, const std::array<bool, techniqueCount
 } // namespace
 
 MaterialTable::MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
-                             const std::array<bool, techniqueCount>& enabled)
-    : maxMaterials_(maxMaterials) {
+                             const std::array<bool, techniqueCount>& enabled, IdBits idBits)
+    : maxMaterials_(maxMaterials), idBits_{idBits.mask >> idBits.shift << idBits.shift, idBits.shift} {
     for (std::size_t i = 0; i < techniqueCount; ++i) {
         tables_[i] = tableOf(i, enabled);
     }
@@ -69,6 +69,12 @@ void MaterialTable::clear() {
 }
 
 void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> materials) {
+    for (std::uint32_t id = firstId; id < firstId + materials.size(); ++id) {
+        if ((id << idBits_.shift & ~idBits_.mask) != 0) {
+            fail(NACRE_ERROR_INVALID_ARGUMENT, "firstId is ", firstId, " and count ", materials.size(), ": no pixel can have "
+                 "id ", id, ", NacreContextInfo::materialIdMask is ", idBits_.mask, " and materialIdShift ", idBits_.shift);
+        }
+    }
     const auto isNew = [](std::uint32_t slot) { return slot == 0; };
     const std::span<const std::uint32_t> slots = std::span(slots_).subspan(firstId, materials.size());
     const auto added = static_cast<std::uint32_t>(std::count_if(slots.begin(), slots.end(), isNew));
@@ -135,6 +141,20 @@ void MaterialTable::summarize() {
     summary_.haveSeparate = common == 0;
 }
 
+/// Under every value that an image may have for this id, so that shaders look values up as they are.
+void MaterialTable::writeSlot(Frame& frame, std::uint32_t id) const {
+    const std::uint32_t bits = id << idBits_.shift;
+    const Section& parameters = sections_.back();
+    std::byte* const slots = frame.buffer.mapped + parameters.offset - parameters.head;
+    const std::uint32_t others = NACRE_MAX_MATERIALS & ~idBits_.mask;
+    std::uint32_t other = 0;
+    do {
+        const std::uint32_t value = bits | other;
+        std::memcpy(slots + value * sizeof(slots_[id]), &slots_[id], sizeof(slots_[id]));
+        other = (other - others) & others; // the next set of other bits
+    } while (other != 0);
+}
+
 void MaterialTable::update(std::uint32_t index) {
     Frame& frame = frames_[index];
     for (const std::uint32_t id : frame.changed) {
@@ -143,8 +163,7 @@ void MaterialTable::update(std::uint32_t index) {
             const VkDeviceSize at = section.offset + section.stride * slot;
             std::memcpy(frame.buffer.mapped + at, current_.data() + at, section.stride);
         }
-        const Section& parameters = sections_.back();
-        std::memcpy(frame.buffer.mapped + parameters.offset - parameters.head + id * sizeof(slot), &slot, sizeof(slot));
+        writeSlot(frame, id);
         frame.isChanged[slot] = false;
     }
     frame.changed.clear();

@@ -13,12 +13,18 @@
 
 namespace nacre::effect {
 
+/// Which bits of a pixel's value are its id: (value & mask) >> shift.
+struct IdBits {
+    std::uint32_t mask = NACRE_MAX_MATERIALS;
+    std::uint32_t shift = 0;
+};
+
 class MaterialTable {
 public:
     /// maxMaterials: how many may be set. enabled[i]: whether techniques[i] needs its table; those that build the same
     /// one share it.
     MaterialTable(const Device& device, std::uint32_t maxMaterials, std::uint32_t frames,
-                  const std::array<bool, techniqueCount>& enabled);
+                  const std::array<bool, techniqueCount>& enabled, IdBits idBits);
     void addTo(MemoryLayout& layout);
     /// No material is set. Call once, when the buffers have memory.
     void clear();
@@ -65,10 +71,12 @@ private:
         std::vector<bool> isChanged;        ///< by slot
         Summary summary;
     };
+    void writeSlot(Frame& frame, std::uint32_t id) const;
     VkDescriptorBufferInfo range(std::uint32_t frame, const Section& section) const;
     void summarize();
 
     std::uint32_t maxMaterials_;
+    IdBits idBits_;
     std::array<std::size_t, techniqueCount>
         tables_{}; ///< whose section each technique reads: its own or an earlier one's
     std::array<Section, techniqueCount + 1> sections_; ///< one a technique, then slots by id and MaterialParameters

@@ -63,17 +63,33 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
 
 namespace {
 
-PassPipelines createVariants(const Device& device, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache) {
+/// A pass's specialization constants: those of its variant, then those of the context's encodings (encoded_inputs.glsl).
+struct PassConstants {
+    static constexpr std::uint32_t count = 4;
+    static constexpr std::uint32_t ofVariants = 2;
+    PassConstants(const Context& context, Variant variant)
+        : values{variant & 1u, variant >> 1 & 1u, context.noMaterialIds ? VK_TRUE : VK_FALSE, normalBits(context)} {}
+    static std::uint32_t normalBits(const Context& context) {
+        return (context.normalEncoding == NACRE_NORMAL_OCTAHEDRAL ? normalOctahedral : 0u) |
+               (context.normalSpace == NACRE_NORMAL_VIEW ? normalInViewSpace : 0u);
+    }
+    std::array<std::uint32_t, count> values;
+    std::array<VkSpecializationMapEntry, count> entries{
+        {{0, 0, 4}, {1, 4, 4}, {constantNoMaterialIds, 8, 4}, {constantNormalEncoding, 12, 4}}};
+};
+
+PassPipelines createVariants(const Context& context, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache) {
     PassPipelines pipelines;
     for (Variant variant = 0; variant < variantCount; ++variant) {
         if ((variant & ~variantsOf(pass)) != 0) {
             continue;
         }
-        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under these ids.
-        const VkBool32 values[] = {variant & 1u, variant >> 1 & 1u};
-        const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}};
-        const VkSpecializationInfo constants{2, entries, sizeof(values), values};
-        pipelines[variant] = createPipeline(device, layout, pass, cache, variantsOf(pass) != 0 ? &constants : nullptr);
+        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under the first ids.
+        const PassConstants constants(context, variant);
+        const std::uint32_t first = variantsOf(pass) != 0 ? 0 : PassConstants::ofVariants;
+        const VkSpecializationInfo info{PassConstants::count - first, constants.entries.data() + first,
+                                        sizeof(constants.values), constants.values.data()};
+        pipelines[variant] = createPipeline(context.device, layout, pass, cache, &info);
     }
     return pipelines;
 }
@@ -99,7 +115,7 @@ TechniquePipelines createPipelines(const Context& context, VkPipelineCache cache
                     pass.file = pass.halfFile;
                     pass.spirv = pass.halfSpirv;
                 }
-                pipelines[i].push_back(createVariants(context.device, layout, pass, cache));
+                pipelines[i].push_back(createVariants(context, layout, pass, cache));
             }
         }
     }

@@ -31,6 +31,7 @@
  *  Materials are in millimetres. Light is linear. Irradiance is diffuse light without albedo and without specular.
  *
  * WHAT TO DO WITH THE RESULTS
+ *  nacreCmdCompose does all of this and gives one image to add. By hand:
  *  Closed bodies:  diffuse = albedo / pi * (scattered + transmitted)
  *  `scattered` is nacreCmdScatter's output: light that entered where the camera sees it. `transmitted` is
  *  nacreCmdTransmit's: light that entered where the camera does not see it, times the material's translucency. Each
@@ -78,6 +79,8 @@ extern "C" {
 #define NACRE_MAX_MATERIALS 65535u
 /** NacreLight::shadowMap of a light without a shadow map. */
 #define NACRE_NO_SHADOW_MAP 0xffffffffu
+/** Most cascades of a light. */
+#define NACRE_MAX_CASCADES 16u
 /** Most shadow-map images one nacreCmdTransmit takes (each may have many array layers). */
 #define NACRE_MAX_SHADOW_MAPS 16u
 
@@ -112,11 +115,29 @@ typedef enum NacreTechnique {
     NACRE_TECHNIQUE_MAX_ENUM = 0x7fffffff
 } NacreTechnique;
 
+/** How an image holds depth, of the camera (NacreView) or of a light (NacreLight). */
 typedef enum NacreDepthEncoding {
-    NACRE_DEPTH_LINEAR = 0,   /**< distance along the view direction in scene units, > 0 */
-    NACRE_DEPTH_HARDWARE = 1, /**< the depth buffer's value, decoded with NacreView::clipFromView */
+    NACRE_DEPTH_LINEAR = 0,   /**< camera: distance along the view direction in scene units, > 0; light: that of
+                                   NacreLight::shadowRange, in a colour format */
+    NACRE_DEPTH_HARDWARE = 1, /**< the depth buffer's value, decoded with the matrix it was drawn with: of the camera
+                                   NacreView::clipFromView, of a light shadowClipFromWorld. Perspective or orthographic,
+                                   reversed or not, finite or not */
     NACRE_DEPTH_ENCODING_MAX_ENUM = 0x7fffffff
 } NacreDepthEncoding;
+
+/** How a normal image holds a normal, after normalScale and normalBias. */
+typedef enum NacreNormalEncoding {
+    NACRE_NORMAL_XYZ = 0,        /**< a vector, of any length */
+    NACRE_NORMAL_OCTAHEDRAL = 1, /**< two numbers in [-1, 1]: n / (|x| + |y| + |z|), of which x and y are kept where z >= 0,
+                                      else (1 - |y|, 1 - |x|) with the signs of x and y (Cigolle et al. 2014, "oct") */
+    NACRE_NORMAL_ENCODING_MAX_ENUM = 0x7fffffff
+} NacreNormalEncoding;
+
+typedef enum NacreNormalSpace {
+    NACRE_NORMAL_WORLD = 0,
+    NACRE_NORMAL_VIEW = 1, /**< of the view that the call has: right-handed, looks along -Z */
+    NACRE_NORMAL_SPACE_MAX_ENUM = 0x7fffffff
+} NacreNormalSpace;
 
 typedef enum NacreAlbedoUse {
     NACRE_ALBEDO_POST = 0,         /**< scatter irradiance, multiply by the albedo afterwards */
@@ -132,6 +153,13 @@ typedef enum NacreLightKind {
     NACRE_LIGHT_KIND_MAX_ENUM = 0x7fffffff
 } NacreLightKind;
 
+/** Which of a light's cascades tells about a point. */
+typedef enum NacreCascadeChoice {
+    NACRE_CASCADE_BY_MAP = 0,        /**< the first whose map has the point in it */
+    NACRE_CASCADE_BY_VIEW_DEPTH = 1, /**< the first that reaches as far from the camera (NacreShadowCascade::farDepth) */
+    NACRE_CASCADE_CHOICE_MAX_ENUM = 0x7fffffff
+} NacreCascadeChoice;
+
 /** The slots of NacreScatterInfo and NacreTransmitInfo, for nacreGetImageRequirements. */
 typedef enum NacreImageSlot {
     NACRE_IMAGE_IRRADIANCE = 0,
@@ -145,7 +173,8 @@ typedef enum NacreImageSlot {
     NACRE_IMAGE_SCATTERED = 8,
     NACRE_IMAGE_TRANSMITTED = 9,
     NACRE_IMAGE_THICKNESS_OUT = 10,
-    NACRE_IMAGE_SLOT_COUNT = 11,
+    NACRE_IMAGE_COMPOSED = 11,
+    NACRE_IMAGE_SLOT_COUNT = 12,
     NACRE_IMAGE_SLOT_MAX_ENUM = 0x7fffffff
 } NacreImageSlot;
 
@@ -156,6 +185,12 @@ typedef enum NacreSeverity {
 } NacreSeverity;
 
 typedef void (*NacreMessageCallback)(NacreSeverity severity, const char* message, void* userData);
+
+/** Where messages go that are no context's. */
+typedef struct NacreMessages {
+    NacreMessageCallback callback; /**< null = nowhere */
+    void* userData;                /**< handed to it */
+} NacreMessages;
 
 /** What a device must bring. Enable `features` and `features12` (only the members set to VK_TRUE) when creating it. */
 typedef struct NacreRequirements {
@@ -202,7 +237,7 @@ typedef struct NacreContextInfo {
     const VkAllocationCallbacks* allocator;        /**< host allocation callbacks, copied; null = Vulkan's own */
     VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none. Compiling bank may take seconds; from a cache
                                     that has its pipelines, milliseconds (docs/integration.md has figures) */
-    VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area; see nacreResize */
+    VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area, of which a scissor leaves its own; see nacreResize */
     uint32_t techniques;       /**< bits 1u << NacreTechnique: those the context is made for; 0 = all. Fewer techniques
                                     take less memory per pixel and per material (see nacreGetScatterCost) */
     uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
@@ -211,12 +246,21 @@ typedef struct NacreContextInfo {
                                     NacreCost::materialBytes of every technique (bank and bank-surfaces share theirs),
                                     in buffers no larger than the device's maxStorageBufferRange: where that is 128 MiB,
                                     65535 of separable, 5432 of bank */
-    uint32_t maxLights;        /**< [1 … 1024] lights per transmit call; 0 = 16 */
+    uint32_t maxLights;        /**< [1 … 1024] lights per transmit call, and their cascades; 0 = 16 */
     NacreMemory deviceMemory;  /**< for the intermediates; null = the library allocates. nacreResize has to do with it, too */
     NacreMemory hostMemory;    /**< for materials and parameters; null = the library allocates */
     VkBool32 shaderFloat16;    /**< the device was made with VkPhysicalDeviceVulkan12Features::shaderFloat16: where there
                                     are no edges, bank then interpolates in half floats, which is faster (docs/scatter.md).
                                     NACRE_ERROR_UNSUPPORTED_DEVICE where physicalDevice lacks the feature */
+    const VkPhysicalDeviceFeatures* enabledFeatures; /**< what the device was created with, to have a feature that was
+                                    forgotten told; null = not stated, not checked */
+    uint32_t materialIdMask;   /**< [0 … 65535] bits of a value of the materialId image that are the id; 0 = all. With a
+                                    stencil, those that the caller's other passes leave alone */
+    uint32_t materialIdShift;  /**< [0 … 15] id = (value & materialIdMask) >> materialIdShift */
+    VkBool32 noMaterialIds;    /**< calls have no materialId image: material 1 is wherever their strength image is above 0,
+                                    without one everywhere. VK_FALSE: they have one */
+    NacreNormalEncoding normalEncoding; /**< of the normal images of all calls */
+    NacreNormalSpace normalSpace;       /**< likewise */
 } NacreContextInfo;
 
 /** One layer of a material: adds weight · exp(-r² / 2 variance) / (2 pi variance). */
@@ -244,6 +288,8 @@ typedef struct NacreMaterial {
                                    NACRE_TECHNIQUE_BANK_SURFACES where NACRE_TECHNIQUE_BANK is asked for: for light that
                                    reaches from fold to fold of a body, as in jade; slower at edges (docs/scatter.md).
                                    Only in contexts made for both techniques. VK_FALSE: as asked for */
+    VkBool32 thinWall;        /**< a sheet without an inside: nacreCmdCompose leaves the share translucency of the scattered
+                                   light to the other side. VK_FALSE: a closed body */
 } NacreMaterial;
 
 /** Physical defaults: strength 1, translucency 1, scale 1, all exchange groups, no second surfaces; the profile is the
@@ -276,8 +322,11 @@ typedef struct NacreView {
     float viewFromWorld[16];          /**< rotation and translation; used by transmit and by normals */
     NacreDepthEncoding depthEncoding;
     float metersPerUnit;              /**< [> 0] 0 = 1 */
-    VkRect2D renderArea;              /**< px, the same in all images; zero extent = the irradiance's (transmit: the
-                                           depth's) whole extent */
+    VkRect2D renderArea;              /**< px, the same in all images: the viewport that clipFromView maps to; zero extent =
+                                           the irradiance's (transmit: the depth's) whole extent */
+    VkRect2D scissor;                 /**< px: the part of the render area that is read and written, e.g. around a
+                                           character; larger than that by what its materials reach, since light from beyond
+                                           is not seen. Zero extent = the whole render area */
 } NacreView;
 
 /** Timestamps around every pass: passCount + 1 queries from firstQuery on (see nacreGetScatterCost and
@@ -294,9 +343,12 @@ typedef struct NacreScatterInfo {
     NacreImage irradiance;    /**< diffuse light without albedo and specular, linear, [0, 65504]; what lies beyond may be
                                    taken for the nearer of the two */
     NacreImage depth;
-    NacreImage materialId;    /**< R8 or R16 uint; 0 or an id never set = no subsurface scattering */
-    NacreImage normal;        /**< optional, world space in xyz: value·normalScale + normalBias; `brute` and `burley` take
-                                   the surface's slope from it, without it from depth differences; others do not read it */
+    NacreImage materialId;    /**< unsigned integers, or the stencil aspect of a depth buffer, in the view's first channel
+                                   (a swizzle chooses another one); see NacreContextInfo::materialIdMask. Id 0 or one
+                                   never set = no subsurface scattering. Not given with NacreContextInfo::noMaterialIds */
+    NacreImage normal;        /**< optional, value·normalScale + normalBias, as NacreContextInfo::normalEncoding and
+                                   normalSpace say; `brute` and `burley` take the surface's slope from it, without it from
+                                   depth differences; others do not read it */
     float normalScale;        /**< 0 = 1 */
     float normalBias;
     NacreImage strength;      /**< optional, red: multiplies the material's strength; without it 1 */
@@ -313,20 +365,51 @@ typedef struct NacreScatterInfo {
     NacreTimestamps timestamps;
 } NacreScatterInfo;
 
+/** One of several shadow maps of a light, drawn along its direction or from its position. */
+typedef struct NacreShadowCascade {
+    float clipFromWorld[16]; /**< as NacreLight::shadowClipFromWorld */
+    uint32_t shadowMap;      /**< index into NacreTransmitInfo::shadowMaps */
+    uint32_t layer;          /**< array layer */
+    VkRect2D rectangle;      /**< px, as NacreLight::shadowRectangle; zero extent = the whole layer */
+    float range;             /**< scene units, as NacreLight::shadowRange; 0 = the light's; linear depth alone */
+    float farDepth;          /**< [> 0] scene units along the view direction: where it ends, larger from one to the next.
+                                  NACRE_CASCADE_BY_VIEW_DEPTH alone */
+} NacreShadowCascade;
+
 /** A light and what its shadow map needs. World space. */
 typedef struct NacreLight {
     NacreLightKind kind;
-    float position[3];        /**< spot, point: where it is. Directional: the origin of the shadow map's depth */
+    float position[3];        /**< spot, point: where it is. Directional: the origin of the shadow map's linear depth; of
+                                   hardware depth not read */
     float direction[3];       /**< directional, spot: the way the light travels; need not be normalised */
     float irradiance[3];      /**< directional: on a surface that faces it; spot, point: the same at one metre */
     float range;              /**< scene units, spot and point: falls to zero there (KHR_lights_punctual); 0 = unlimited */
+    float attenuation[3];     /**< [>= 0] spot and point: irradiance is divided by a[0] + a[1]·d + a[2]·d², d in metres.
+                                   All 0 = {0, 0, 1}, which is physical; {1, 0, 0} = the same at every distance, as where
+                                   the caller has put the distance into `irradiance` */
     float innerConeAngle;     /**< [rad] half angle, spot */
     float outerConeAngle;     /**< [rad] half angle, spot */
     uint32_t shadowMap;       /**< index into NacreTransmitInfo::shadowMaps, or NACRE_NO_SHADOW_MAP */
     uint32_t shadowLayer;     /**< its first array layer; a point light has six, faces +X -X +Y -Y +Z -Z as in a cube map */
-    float shadowClipFromWorld[16]; /**< directional, spot */
+    float shadowClipFromWorld[16]; /**< directional, spot: the matrix the map was drawn with. Point with hardware depth: the
+                                   projection of a face, of which [10], [11], [14] and [15] are read */
     float shadowRange;        /**< scene units: linear depth = stored value · shadowRange. Directional: along `direction`
                                    from `position`; spot, point: distance from `position` */
+    NacreDepthEncoding shadowDepthEncoding; /**< how the map's values become depth; maps in depth formats have
+                                   NACRE_DEPTH_HARDWARE */
+    VkRect2D shadowRectangle; /**< px: the light's part of the map's layers (an atlas), which shadowClipFromWorld maps to
+                                   [-1, 1]; zero extent = all */
+    VkBool32 shadowFrontFacesCulled; /**< the map has the faces that look away from the light. It then does not know where
+                                   light enters a body: the thickness is the authored one (NacreMaterial::thickness,
+                                   NacreTransmitInfo::thickness) plus the distance to what is nearer to the light; where
+                                   none is authored, no light comes through */
+    uint32_t cascadeCount;    /**< [0 … 16] maps of a directional or spot light in place of the one above; each counts
+                                   towards NacreContextInfo::maxLights, too. shadowMap, shadowLayer, shadowClipFromWorld
+                                   and shadowRectangle are not read then */
+    const NacreShadowCascade* cascades;
+    NacreCascadeChoice cascadeChoice;
+    float cascadeBlend;       /**< [0, 1] the share of a cascade over which it goes over into the next: of its span of view
+                                   depth, or of its half width; 0 = none */
 } NacreLight;
 
 typedef struct NacreTransmitInfo {
@@ -343,7 +426,8 @@ typedef struct NacreTransmitInfo {
     const NacreLight* lights;
     uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] images; quickest with one,
                                        in whose layers all lights have their map */
-    const NacreImage* shadowMaps; /**< 2D array views of linear depth; extent: the map, from the view's first texel */
+    const NacreImage* shadowMaps; /**< 2D array views, of the depth aspect where there are two; extent: the map, from the
+                                       view's first texel */
     float normalOffset;           /**< [texels] how far the receiver shrinks along its normal; 0 = 1.5 */
     float filterRadius;           /**< [texels] radius of the thickness filter; 0 = 2 */
     const struct NacreBaselineSettings* baselines; /**< of nacre_baselines.h; null = their defaults */
@@ -354,7 +438,23 @@ typedef struct NacreTransmitInfo {
     NacreTimestamps timestamps;
 } NacreTransmitInfo;
 
-/** What one call of nacreCmdScatter or nacreCmdTransmit costs; the same for any number of layers and, but for
+/** Puts scattered and transmitted light together (see WHAT TO DO WITH THE RESULTS; a wall's two sides have one colour). */
+typedef struct NacreComposeInfo {
+    VkRect2D renderArea;      /**< px, of all images; zero extent = the scattered image's whole extent */
+    uint32_t frame;           /**< as in NacreScatterInfo */
+    NacreImage materialId;    /**< as in NacreScatterInfo */
+    NacreImage strength;      /**< optional, as in NacreTransmitInfo; read of thin walls, and with
+                                   NacreContextInfo::noMaterialIds */
+    NacreImage scattered;     /**< nacreCmdScatter's output, now sampled */
+    NacreImage transmitted;   /**< optional: nacreCmdTransmit's output, now sampled; without it 0 */
+    NacreImage albedo;        /**< optional; without it 1 */
+    VkBool32 scatteredHasAlbedo; /**< nacreCmdScatter was given the albedo, so that `scattered` has it already */
+    NacreImage composed;      /**< output: albedo / pi * (scattered + transmitted), to be added to the picture; 0 where there
+                                   is no subsurface scattering, and in alpha */
+    NacreTimestamps timestamps;
+} NacreComposeInfo;
+
+/** What one call of nacreCmdScatter, nacreCmdTransmit or nacreCmdCompose costs; the same for any number of layers and, but for
  *  dispatchesPerMaterial, of materials. */
 typedef struct NacreCost {
     uint32_t dispatchCount;         /**< with the materials set so far, as everything here, and a render area of maxExtent;
@@ -389,13 +489,20 @@ NACRE_API NacreResult nacreGetMemoryRequirements(const NacreContextInfo* info, N
 NACRE_API NacreResult nacreCreateContext(const NacreContextInfo* info, NacreContext* context);
 /** The device must have finished with the context's work. Null is allowed. */
 NACRE_API void nacreDestroyContext(NacreContext context);
-/** Changes maxExtent. The device must have finished with the context's work. On failure the old extent stays; one reason
- *  is that NacreContextInfo::deviceMemory is too small. */
-NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent);
+/** Changes maxExtent. The device must have finished with the context's work. On failure the old extent stays.
+ *  deviceMemory: in place of NacreContextInfo::deviceMemory from now on, which then is the caller's again (see
+ *  nacreGetMemoryRequirements for what it needs); null = as before, which fails where memory that was given is too small. It
+ *  may be the same memory. */
+NACRE_API NacreResult nacreResize(NacreContext context, VkExtent2D maxExtent, const NacreMemory* deviceMemory);
 /** Sets materials firstId … firstId + count - 1, ids in [1, NACRE_MAX_MATERIALS]. May be called while frames are in flight: a frame sees
  *  the materials set before its nacreBeginFrame, whole. On error nothing changes. */
 NACRE_API NacreResult nacreSetMaterials(NacreContext context, uint32_t firstId, uint32_t count,
                                         const NacreMaterial* materials);
+/** The names of the library's materials, e.g. "skin". names null: *nameCount becomes their number. Else it is how many fit into
+ *  names, and becomes how many were written; NACRE_ERROR_LIMIT_EXCEEDED when that is not all. Static storage. */
+NACRE_API NacreResult nacreGetPresets(uint32_t* nameCount, const char** names);
+/** Sets material id to one of these, as nacreSetMaterials does. A material from a file: nacre_files.h. */
+NACRE_API NacreResult nacreSetPreset(NacreContext context, uint32_t id, const char* name);
 /** Starts a frame: frame [0 … framesInFlight) may be recorded anew, with the materials set so far. The device must have
  *  finished what was recorded with this number before. Host work only; nothing is allocated. */
 NACRE_API NacreResult nacreBeginFrame(NacreContext context, uint32_t frame);
@@ -404,8 +511,12 @@ NACRE_API NacreResult nacreCmdScatter(NacreContext context, VkCommandBuffer comm
 /** Light coming through back-lit bodies. */
 NACRE_API NacreResult nacreCmdTransmit(NacreContext context, VkCommandBuffer commandBuffer,
                                        const NacreTransmitInfo* info);
+/** One image to add to the picture, from the outputs of the two. They are visible to it as inputs: between them and this
+ *  stands the caller's barrier, from compute shader writes to compute shader reads. */
+NACRE_API NacreResult nacreCmdCompose(NacreContext context, VkCommandBuffer commandBuffer, const NacreComposeInfo* info);
 NACRE_API NacreResult nacreGetScatterCost(NacreContext context, NacreTechnique technique, NacreCost* cost);
 NACRE_API NacreResult nacreGetTransmitCost(NacreContext context, NacreCost* cost);
+NACRE_API NacreResult nacreGetComposeCost(NacreContext context, NacreCost* cost);
 
 #ifdef __cplusplus
 }

@@ -39,7 +39,12 @@ public:
         return nacreGetMemoryRequirements(&info, &requirements);
     }
 
-    [[nodiscard]] NacreResult resize(VkExtent2D maxExtent) { return nacreResize(context_, maxExtent); }
+    [[nodiscard]] NacreResult resize(VkExtent2D maxExtent, const NacreMemory* deviceMemory = nullptr) {
+        return nacreResize(context_, maxExtent, deviceMemory);
+    }
+    [[nodiscard]] NacreResult setPreset(std::uint32_t id, const char* name) {
+        return nacreSetPreset(context_, id, name);
+    }
     /// Sets materials firstId, firstId + 1, …
     [[nodiscard]] NacreResult setMaterials(std::uint32_t firstId, std::span<const NacreMaterial> materials) {
         return nacreSetMaterials(context_, firstId, static_cast<std::uint32_t>(materials.size()), materials.data());
@@ -50,6 +55,9 @@ public:
     }
     [[nodiscard]] NacreResult cmdTransmit(VkCommandBuffer commandBuffer, const NacreTransmitInfo& info) {
         return nacreCmdTransmit(context_, commandBuffer, &info);
+    }
+    [[nodiscard]] NacreResult cmdCompose(VkCommandBuffer commandBuffer, const NacreComposeInfo& info) {
+        return nacreCmdCompose(context_, commandBuffer, &info);
     }
     [[nodiscard]] NacreResult scatterCost(NacreTechnique technique, NacreCost& cost) const {
         return nacreGetScatterCost(context_, technique, &cost);

@@ -8,8 +8,8 @@
  * HOW
  *  set up    nacreGetBindings lists descriptor set 0 of a technique, nacreGetPasses its compute passes: SPIR-V, or the name
  *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial or
- *            several repeats, a push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps or
- *            hasAlbedoOrStrength takes two pipelines; with two of these, four.
+ *            several repeats, a push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps,
+ *            hasAlbedoOrStrength or hasGeneralLights takes two pipelines; with two of these, four.
  *  materials The buffer "materials" starts with 65536 uint32_t: the slot of every material id, 0 where none is set. Slots
  *            count from 1. nacreFillMaterial fills a slot's element there, nacreFillTable its element of "tables".
  *            A buffer of n materials is head + (n + 1) * stride bytes. Change a material only when no frame reads it.
@@ -39,12 +39,6 @@ extern "C" {
 
 /** Transmission, which the functions below take beside the techniques of scatter. */
 #define NACRE_TECHNIQUE_TRANSMIT ((NacreTechnique)0x1000)
-
-/** Where messages go. */
-typedef struct NacreMessages {
-    NacreMessageCallback callback; /**< null = nowhere */
-    void* userData;                /**< handed to it */
-} NacreMessages;
 
 /** A binding of descriptor set 0: a buffer, an image of yours, or an intermediate. */
 typedef struct NacreBinding {
@@ -85,6 +79,9 @@ typedef struct NacrePass {
     VkBool32 hasAlbedoOrStrength; /**< has the specialization constant 1, a VkBool32, by default VK_TRUE: VK_FALSE in the
                                       pipeline for calls with neither an albedo nor a strength image, while every
                                       material that is set has strength 1 */
+    VkBool32 hasGeneralLights;   /**< has the specialization constant 1, a VkBool32, by default VK_FALSE: VK_TRUE in the
+                                      pipeline for calls of which nacreNeedsGeneralLights is true; the one without is
+                                      quicker */
     VkExtent3D groups;           /**< workgroups to dispatch; 0 where indirectBinding is not */
     uint32_t indirectBinding;    /**< the intermediate that holds the VkDispatchIndirectCommand; 0 = none does */
     VkDeviceSize indirectOffset; /**< bytes, where in it */
@@ -121,8 +118,12 @@ NACRE_API NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, u
  *  view.renderArea is zero; lights, frame and timestamps are not. images: as above; the normals are always bound. */
 NACRE_API NacreResult nacreFillTransmitParameters(const NacreTransmitInfo* info, uint32_t images,
                                                   const NacreMessages* messages, size_t size, void* data);
-/** All lightCount elements of "lights" (LightParameters), so size is at least lightCount times the stride. Of shadowMaps
- *  only their extents are looked at. */
+/** Elements of "lights" that a call takes: one a light and one a cascade. 0 where info is null. */
+NACRE_API uint32_t nacreGetLightElementCount(const NacreTransmitInfo* info);
+/** Whether a light of the call has hardware depth, culled front faces, a rectangle, cascades or an attenuation. */
+NACRE_API VkBool32 nacreNeedsGeneralLights(const NacreTransmitInfo* info);
+/** All elements of "lights" (LightParameters), so size is at least nacreGetLightElementCount times the stride. Of shadowMaps
+ *  only their extents and formats are looked at. */
 NACRE_API NacreResult nacreFillLights(const NacreTransmitInfo* info, const NacreMessages* messages, size_t size,
                                       void* data);
 

@@ -240,7 +240,7 @@ void Subsurface::prepare(const EffectSettings& settings) {
 
 void Subsurface::resize(vk::Extent2D extent) {
     message_->clear();
-    check(nacreResize(context_.get(), extent));
+    check(nacreResize(context_.get(), extent, nullptr));
     info_.extent = extent;
 }
 

@@ -117,10 +117,10 @@ TEST_F(MemoryTest, GivenMemoryIsUsedAndGivesTheSamePicture) {
         EXPECT_EQ(placed.scatter(input_, technique), own.scatter(input_, technique));
     }
     // A smaller extent has room in it, a larger one has not, and then the old one stays.
-    EXPECT_EQ(nacreResize(placed.context, {512, 512}), NACRE_ERROR_LIMIT_EXCEEDED);
+    EXPECT_EQ(nacreResize(placed.context, {512, 512}, nullptr), NACRE_ERROR_LIMIT_EXCEEDED);
     EXPECT_NE(placed.messages.back().find("NacreContextInfo::deviceMemory.size is"), std::string::npos);
     EXPECT_EQ(placed.scatter(input_, NACRE_TECHNIQUE_BANK), own.scatter(input_, NACRE_TECHNIQUE_BANK));
-    EXPECT_EQ(nacreResize(placed.context, {16, 16}), NACRE_SUCCESS);
+    EXPECT_EQ(nacreResize(placed.context, {16, 16}, nullptr), NACRE_SUCCESS);
 }
 
 TEST_F(MemoryTest, OtherMemoryWillDoWhereTheBestIsFull) {

@@ -120,8 +120,8 @@ TEST_F(FramesTest, ResizingKeepsTheMaterials) {
     Effect effect(gpu, small);
     effect.setMaterials({&material, 1});
     EXPECT_THROW(effect.scatter(input_, NACRE_TECHNIQUE_SEPARABLE), std::runtime_error);
-    EXPECT_EQ(nacreResize(effect.context, {0, 0}), NACRE_ERROR_INVALID_ARGUMENT);
-    ASSERT_EQ(nacreResize(effect.context, input_.extent), NACRE_SUCCESS);
+    EXPECT_EQ(nacreResize(effect.context, {0, 0}, nullptr), NACRE_ERROR_INVALID_ARGUMENT);
+    ASSERT_EQ(nacreResize(effect.context, input_.extent, nullptr), NACRE_SUCCESS);
     EXPECT_EQ(effect.scatter(input_, NACRE_TECHNIQUE_SEPARABLE), alone(material));
 }
 

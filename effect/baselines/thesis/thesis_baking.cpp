@@ -48,6 +48,10 @@ void bakeThesisKernel(Context& context, std::uint32_t materialId, std::uint32_t 
     if (!context.materials->isSet(materialId)) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "materialId is ", materialId, ", which nacreSetMaterials has not set");
     }
+    if (context.noMaterialIds) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "a kernel is baked, but NacreContextInfo::noMaterialIds is VK_TRUE: baked passes "
+             "read ids");
+    }
     KernelConstants constants{};
     constants.radius = thesisRadius(radius, "radius");
     const std::span<const std::byte> table = context.materials->currentTable(materialId, technique);

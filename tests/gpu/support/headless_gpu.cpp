@@ -24,12 +24,21 @@ VkImageAspectFlags aspectOf(VkFormat format) {
     case VK_FORMAT_X8_D24_UNORM_PACK32:
     case VK_FORMAT_D32_SFLOAT:
         return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_D16_UNORM_S8_UINT:
     case VK_FORMAT_D24_UNORM_S8_UINT:
     case VK_FORMAT_D32_SFLOAT_S8_UINT:
         return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    case VK_FORMAT_S8_UINT:
+        return VK_IMAGE_ASPECT_STENCIL_BIT;
     default:
         return VK_IMAGE_ASPECT_COLOR_BIT;
     }
+}
+
+/// What is uploaded, and seen by a view: of depth and stencil the depth.
+VkImageAspectFlags firstAspectOf(VkFormat format) {
+    const VkImageAspectFlags aspect = aspectOf(format);
+    return (aspect & VK_IMAGE_ASPECT_DEPTH_BIT) != 0 ? VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT} : aspect;
 }
 
 } // namespace
@@ -42,6 +51,13 @@ std::size_t texelBytes(VkFormat format) {
         return 8;
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_X8_D24_UNORM_PACK32: // a depth aspect's copy has 4 bytes, whatever the stencil
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+    case VK_FORMAT_R8G8B8A8_UINT:
+    case VK_FORMAT_R16G16_SFLOAT:
+    case VK_FORMAT_R16G16_UNORM:
+    case VK_FORMAT_R16G16_SNORM:
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SNORM:
@@ -53,6 +69,7 @@ std::size_t texelBytes(VkFormat format) {
         return 2;
     case VK_FORMAT_R8_UINT:
     case VK_FORMAT_R8_UNORM:
+    case VK_FORMAT_S8_UINT:
         return 1;
     default:
         throw std::runtime_error("texelBytes: VkFormat " + std::to_string(format));
@@ -224,7 +241,7 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     result.layout = settings.layout;
     result.extent = settings.extent;
     result.layers = settings.layers;
-    const bool isDepth = (aspectOf(settings.format) & VK_IMAGE_ASPECT_DEPTH_BIT) != 0;
+    const bool isDepth = aspectOf(settings.format) != VK_IMAGE_ASPECT_COLOR_BIT;
     // A depth image's read-only layout asks for more than sampling.
     constexpr VkImageUsageFlags depthUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     result.usage =
@@ -249,8 +266,9 @@ GpuImage Gpu::createImage(const ImageSettings& settings) {
     viewInfo.image = result.image;
     viewInfo.viewType = settings.array || settings.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.format = settings.format;
-    viewInfo.subresourceRange = {isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
-                                 settings.layers};
+    viewInfo.components = settings.components;
+    const VkImageAspectFlags stencil = VK_IMAGE_ASPECT_STENCIL_BIT;
+    viewInfo.subresourceRange = {settings.stencil ? stencil : firstAspectOf(settings.format), 0, 1, 0, settings.layers};
     check(vkCreateImageView(device, &viewInfo, nullptr, &result.view), "vkCreateImageView");
     viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.subresourceRange.layerCount = 1;
@@ -300,7 +318,7 @@ void Gpu::upload(GpuImage& image, std::span<const std::byte> texels) {
     run([&](VkCommandBuffer commandBuffer) {
         transition(commandBuffer, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         VkBufferImageCopy region{};
-        region.imageSubresource = {aspectOf(image.format), 0, 0, image.layers};
+        region.imageSubresource = {firstAspectOf(image.format), 0, 0, image.layers};
         region.imageExtent = {image.extent.width, image.extent.height, 1};
         vkCmdCopyBufferToImage(commandBuffer, staging.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
                                &region);
@@ -314,7 +332,7 @@ std::vector<std::byte> Gpu::downloadBytes(const GpuImage& image) {
     run([&](VkCommandBuffer commandBuffer) {
         transition(commandBuffer, image, image.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VkBufferImageCopy region{};
-        region.imageSubresource = {aspectOf(image.format), 0, 0, image.layers};
+        region.imageSubresource = {firstAspectOf(image.format), 0, 0, image.layers};
         region.imageExtent = {image.extent.width, image.extent.height, 1};
         vkCmdCopyImageToBuffer(commandBuffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.buffer, 1,
                                &region);

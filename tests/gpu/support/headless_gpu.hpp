@@ -50,6 +50,8 @@ struct ImageSettings {
     std::uint32_t layers = 1;
     bool array = false;      ///< a 2D array view even of one layer
     bool layerViews = false; ///< also a 2D view of every layer
+    bool stencil = false;    ///< the view's aspect is the stencil, where there is a depth, too
+    VkComponentMapping components{};
 };
 
 /// Bytes of one texel; throws for formats the tests do not use.

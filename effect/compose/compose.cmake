@@ -1,0 +1,2 @@
+target_sources(nacre PRIVATE compose/compose_technique.cpp)
+nacre_shader(nacre compose/compose.comp NAME compose TRANSLATED)

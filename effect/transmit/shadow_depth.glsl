@@ -1,0 +1,71 @@
+// What the texels of a shadow map say: how far along the light it enters. Needs `shadowMaps`, `view` and the constants
+// severalShadowMaps and generalLights.
+
+// 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
+// groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip loops.
+mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
+#define TEXEL(index, column, row) texelFetch(shadowMaps[index], ivec3(column, row, layer), 0).r
+#define ROW(index, row)                                                                                                \
+    vec4(TEXEL(index, columns.x, row), TEXEL(index, columns.y, row), TEXEL(index, columns.z, row),                     \
+         TEXEL(index, columns.w, row))
+#define TEXELS(index) mat4(ROW(index, rows.x), ROW(index, rows.y), ROW(index, rows.z), ROW(index, rows.w))
+#define FETCH(index)                                                                                                   \
+    for (bool here = map == index; here; here = false) {                                                               \
+        stored = TEXELS(index);                                                                                        \
+    }
+#define FETCH_GROUP(first)                                                                                             \
+    for (bool near = map / 4 * 4 == first; near; near = false) {                                                       \
+        FETCH(first) FETCH(first + 1) FETCH(first + 2) FETCH(first + 3)                                                \
+    }
+    if (!severalShadowMaps) {
+        return TEXELS(0);
+    }
+    mat4 stored = mat4(0.0);
+    FETCH_GROUP(0) FETCH_GROUP(4) FETCH_GROUP(8) FETCH_GROUP(12)
+#undef FETCH_GROUP
+#undef FETCH
+#undef TEXELS
+#undef ROW
+#undef TEXEL
+    return stored;
+}
+
+// Depth of a place in a depth buffer along the light, mm. What was never drawn may be infinitely far.
+float decodedDepth(LightParameters light, vec4 place) {
+    const float farthest = 1e30;
+    vec3 offset = place.xyz;
+    float depth = light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset);
+    return place.w > 0.0 ? min(depth / place.w * view.mmPerUnit, farthest) : farthest;
+}
+
+mat4 decodedDepths(LightParameters light, mat4 stored, vec4 columns, vec4 rows) {
+    mat4 depths;
+    for (int row = 0; row < 4; ++row) {
+        vec4 start = light.offsetFromTexel[1] * (rows[row] + 0.5) + light.offsetFromTexel[3];
+        for (int column = 0; column < 4; ++column) {
+            vec4 place = start + light.offsetFromTexel[0] * (columns[column] + 0.5);
+            depths[row][column] = decodedDepth(light, place + light.offsetFromTexel[2] * stored[row][column]);
+        }
+    }
+    return depths;
+}
+
+// Depth along the light of 4x4 texels of its shadow map, mm. A matrix's column is a row of the map.
+mat4 depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint layer) {
+    ivec4 x = ivec4(columns);
+    ivec4 y = ivec4(rows);
+    if (generalLights) {
+        x += light.shadowOrigin.x;
+        y += light.shadowOrigin.y;
+    }
+    mat4 stored = storedDepths(light.shadowMap, x, y, layer);
+    if (generalLights && (light.shadowFlags & shadowHardwareDepth) != 0u) {
+        return decodedDepths(light, stored, columns, rows);
+    }
+    return stored * (light.direction.w * view.mmPerUnit);
+}
+
+// Whether a light's map has the faces that look away from the light, the receiver's own among them.
+bool isFrontFaceCulled(LightParameters light) {
+    return generalLights && (light.shadowFlags & shadowFrontFacesCulled) != 0u;
+}
