@@ -118,14 +118,20 @@ std::vector<const Body*> pointers(std::span<const Body> bodies) {
     return result;
 }
 
-void placeDirectional(NacreLight& light, std::span<const Body> bodies, float rim) {
+/// How far around its content a map reaches: a share of its half side, and scene units.
+struct Rim {
+    float share;
+    float length;
+};
+
+void placeDirectional(NacreLight& light, std::span<const Body> bodies, const Rim& rim) {
     const glm::vec3 direction = toVector(light.direction);
     const std::vector<const Body*> all = pointers(bodies);
     std::vector<const Body*> casters;
     std::ranges::copy_if(all, std::back_inserter(casters),
                          [&](const Body* body) { return !shadowsNothing(*body, direction); });
     const Square square = fitSquare(casters.empty() ? all : casters, direction);
-    const float half = std::max(square.half * (1 + rim), 1e-6f);
+    const float half = std::max((square.half + rim.length) * (1 + rim.share), 1e-6f);
     const Interval depth = extent(all, direction);
     const float slack = std::max(0.01f * depth.length(), 1e-6f);
     const glm::vec3 right = square.axes.right / half;
@@ -163,6 +169,19 @@ constexpr std::array<std::array<glm::vec3, 3>, 6> cubeFaces{{{{{0, 0, -1}, {0, -
                                                              {{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}},
                                                              {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}}};
 
+/// [scene units] The radius outside of which a quarter of the light of the scene's widest profile leaves: transmit
+/// looks as far around a point for where light enters.
+float largestSpread(const scene::Scene& scene) {
+    double largest = 0;
+    for (const scene::Instance& instance : scene.instances) {
+        const std::uint32_t material = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material;
+        if (material != scene::none) {
+            largest = std::max(largest, makeProfile(scene.materials.at(material))->quantileRadius(0.75));
+        }
+    }
+    return static_cast<float>(largest / (1000 * scene.metersPerUnit));
+}
+
 /// A little more than to the farthest vertex.
 float reach(std::span<const Body> bodies, const glm::vec3& position) {
     float farthest = 0;
@@ -175,7 +194,7 @@ float reach(std::span<const Body> bodies, const glm::vec3& position) {
 }
 
 /// Places the light's shadow map and returns its layers.
-std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<const Body> bodies, float rim) {
+std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<const Body> bodies, const Rim& rim) {
     if (light.kind == NACRE_LIGHT_DIRECTIONAL) {
         placeDirectional(light, bodies, rim);
     } else {
@@ -192,7 +211,7 @@ std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<con
         return faces;
     }
     if (light.kind == NACRE_LIGHT_SPOT) {
-        placeSpot(light, rim);
+        placeSpot(light, rim.share);
     }
     const float along = light.kind == NACRE_LIGHT_DIRECTIONAL ? 1.0f : 0.0f;
     return {{glm::make_mat4(light.shadowClipFromWorld), origin, glm::vec4(toVector(light.direction), along)}};
@@ -252,7 +271,8 @@ NacreLightKind convert(scene::LightKind kind) {
 
 LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMapSize)
     : metersPerUnit_(static_cast<float>(scene.metersPerUnit)),
-      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
+      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))),
+      spread_(largestSpread(scene)) {
     for (const scene::Instance& instance : scene.instances) {
         Body body{.points = worldPoints(scene, instance)};
         body.normal = anyNormal(body.points);
@@ -283,7 +303,7 @@ LightPlacement::Placed LightPlacement::placeAnew(const scene::Light& light) cons
     setShadowClip(placed, glm::mat4(1));
     if (light.castsShadow) {
         placed.shadowMap = 0;
-        result.layers = placeShadowMap(placed, bodies_, margin_);
+        result.layers = placeShadowMap(placed, bodies_, {margin_, spread_});
     }
     return result;
 }

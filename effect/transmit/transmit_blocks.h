@@ -30,7 +30,8 @@ NACRE_CONSTANT transmittanceLast = transmittanceOctaves << transmittanceMantissa
 struct TransmitTable {
     float scale;     // 1/mm
     uint layerCount; // 0 = Burley's profile
-    uint unused0, unused1;
+    float spread;    // mm, outside of which a quarter of the widest channel's light leaves
+    uint unused;
     uvec2 transmittance[transmittanceLast + 2];
     vec4 layers[maxLayers];
 };
