@@ -24,6 +24,7 @@ struct EntryFrame {
 // 4x4 points of the lit surface, their distance from the receiver, and how much they count: 0 where they are no entry.
 struct LitPoints {
     mat4 x, y, z, distance, weight;
+    float shadowed; // [0, 1] share of them that lie on another body, which throws a shadow
 };
 
 // The plane through them: z = height + slope · (x, y).
@@ -88,6 +89,7 @@ void taps(float coordinate, float spacing, float last, out vec4 texels, out vec4
 LitPoints litPoints(EntryFrame frame, mat4 stored, vec4 columns, vec4 rows, vec4 columnWeights, vec4 rowWeights,
                     float range, float farthest, float inmost) {
     LitPoints points;
+    points.shadowed = 0.0;
     for (int row = 0; row < 4; ++row) {
         vec4 perspective = 1.0 / max(1.0 - columns * frame.taper.x - rows[row] * frame.taper.y, 0.01);
         vec4 x = (columns * frame.stepX.x + rows[row] * frame.stepY.x) * perspective;
@@ -104,8 +106,10 @@ LitPoints litPoints(EntryFrame frame, mat4 stored, vec4 columns, vec4 rows, vec4
         points.z[row] = z;
         points.distance[row] = sqrt(x * x + y * y + z * z);
         vec4 isFront = step(0.0, stored[row]) * (1.0 - step(1.0, stored[row]));
-        vec4 counts = isFront * step(points.distance[row], vec4(farthest)) * step(beneath, vec4(inmost));
-        points.weight[row] = counts * columnWeights * rowWeights[row];
+        vec4 isOther = 1.0 - step(beneath, vec4(inmost));
+        vec4 weight = columnWeights * rowWeights[row];
+        points.weight[row] = weight * isFront * step(points.distance[row], vec4(farthest)) * (1.0 - isOther);
+        points.shadowed += dot(weight, isOther);
     }
     return points;
 }

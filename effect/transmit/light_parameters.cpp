@@ -14,6 +14,11 @@
 namespace nacre::effect {
 namespace {
 
+/// A point light may have one, too.
+bool hasCone(const NacreLight& light) {
+    return light.kind == NACRE_LIGHT_SPOT || (light.kind == NACRE_LIGHT_POINT && light.outerConeAngle > 0);
+}
+
 void checkLight(const NacreLight& light, const FieldName& field, std::uint32_t shadowMapCount) {
     if (light.kind < NACRE_LIGHT_DIRECTIONAL || light.kind > NACRE_LIGHT_POINT) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".kind is ", static_cast<int>(light.kind),
@@ -24,14 +29,14 @@ void checkLight(const NacreLight& light, const FieldName& field, std::uint32_t s
     for (const float value : light.irradiance) {
         checkRange(value, 0, 3e38f, field + ".irradiance");
     }
-    if (light.kind != NACRE_LIGHT_POINT) {
+    if (light.kind != NACRE_LIGHT_POINT || hasCone(light)) {
         checkFinite(light.direction, field + ".direction");
         if (std::hypot(light.direction[0], light.direction[1], light.direction[2]) < 1e-12f) {
             fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".direction is 0,0,0, must have a length");
         }
     }
     checkRange(light.range, 0, 3e38f, field + ".range");
-    if (light.kind == NACRE_LIGHT_SPOT) {
+    if (light.kind != NACRE_LIGHT_DIRECTIONAL) {
         checkRange(light.outerConeAngle, 0, std::numbers::pi_v<float> / 2, field + ".outerConeAngle");
         checkRange(light.innerConeAngle, 0, light.outerConeAngle, field + ".innerConeAngle");
     }
@@ -84,14 +89,14 @@ void setProjection(LightParameters& parameters, const NacreLight& light, VkExten
 LightParameters parametersOf(const NacreLight& light, const NacreTransmitInfo& info, float metersPerUnit) {
     LightParameters parameters{};
     parameters.position = {light.position[0], light.position[1], light.position[2], light.range};
-    if (light.kind != NACRE_LIGHT_POINT) {
+    if (light.kind != NACRE_LIGHT_POINT || hasCone(light)) {
         const float length = std::hypot(light.direction[0], light.direction[1], light.direction[2]);
         parameters.direction = {light.direction[0] / length, light.direction[1] / length, light.direction[2] / length,
                                 0};
     }
     parameters.direction.w = light.shadowRange;
     parameters.irradiance = {light.irradiance[0], light.irradiance[1], light.irradiance[2], metersPerUnit};
-    if (light.kind == NACRE_LIGHT_SPOT) {
+    if (hasCone(light)) {
         const float outer = std::cos(light.outerConeAngle);
         parameters.coneScale = 1.0f / std::max(std::cos(light.innerConeAngle) - outer, 0.001f);
         parameters.coneOffset = -outer * parameters.coneScale;

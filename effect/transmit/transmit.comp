@@ -37,7 +37,6 @@ layout(set = 0, binding = bindingThicknessOut) uniform writeonly image2D thickne
 #include "transmittance.glsl"
 
 const uint lightDirectional = 0u; // NacreLightKind
-const uint lightSpot = 1u;
 const uint lightPoint = 2u;
 const uint noShadowMap = 0xffffffffu;
 
@@ -99,7 +98,7 @@ Incidence incidenceAt(LightParameters light, vec3 position) {
         float share = squared / (light.position.w * light.position.w);
         attenuation *= clamp(1.0 - share * share, 0.0, 1.0);
     }
-    if (light.kind == lightSpot) {
+    if (light.coneScale > 0.0) {
         float cone = clamp(dot(light.direction.xyz, -toLight) * light.coneScale + light.coneOffset, 0.0, 1.0);
         attenuation *= cone * cone;
     }
@@ -223,7 +222,8 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     vec3 through = transmittance(receiver.material, thickness, columnWeights, rowWeights);
     through *= plane.cosine * entryShare(plane.opposite);
     float certainty = certaintyOf(receiver, point.texelSize, plane.deviation);
-    vec3 otherwise = isAuthored ? transmittance(receiver.material, receiver.authored) * cosine : vec3(0.0);
+    float authored = isAuthored ? cosine * (1.0 - points.shadowed) : 0.0;
+    vec3 otherwise = authored * transmittance(receiver.material, receiver.authored);
     return vec4(mix(otherwise, through, certainty), min(max(plane.height, 0.0), most));
 }
 

@@ -43,7 +43,7 @@ struct LightParameters {
     vec4 position;   // w: range, 0 = unlimited
     vec4 direction;  // normalised; w: shadowRange
     vec4 irradiance; // w: millimetres per unit times 1e-3, i.e. metres per unit
-    float coneScale; // KHR_lights_punctual: spot attenuation = saturate(cos·coneScale + coneOffset)²
+    float coneScale; // KHR_lights_punctual: spot attenuation = saturate(cos·coneScale + coneOffset)²; 0: no cone
     float coneOffset;
     uint kind;
     uint shadowMap; // NACRE_NO_SHADOW_MAP = none
