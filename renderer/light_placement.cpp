@@ -19,10 +19,11 @@ namespace {
 
 /// Texels that the shadow and thickness filters reach beyond the map's content.
 constexpr float filterMargin = 6;
-/// A spot's map covers at most this half angle; a wider cone stays unshadowed at its rim.
-constexpr float largestHalfAngle = 85 * std::numbers::pi_v<float> / 180;
-/// Near plane of perspective maps over their range; the depth is reversed 32-bit float, so it may be small.
-constexpr float nearToRange = 1e-4f;
+/// A spot's map covers at most this half angle; a wider cone has the six maps of a point light.
+constexpr float largestHalfAngle = 75 * std::numbers::pi_v<float> / 180;
+/// Near plane of perspective maps over their range. Reversed 32-bit float depth is as exact at any distance from it, so
+/// that it may be nearer than anything a lamp lights.
+constexpr float nearToRange = 1e-8f;
 
 using Body = LightPlacement::Body;
 using Interval = LightPlacement::Interval;
@@ -59,8 +60,11 @@ glm::vec3 anyNormal(const std::vector<glm::vec3>& points) {
 }
 
 /// Whether the body is flat and the whole scene lies on its lit side: a ground that shadows nothing, whose size should
-/// not coarsen the map.
+/// not coarsen the map. A sheet that light shines through needs the map for itself.
 bool shadowsNothing(const Body& body, const glm::vec3& direction) {
+    if (body.shinesThrough) {
+        return false;
+    }
     if (body.normal == glm::vec3(0)) {
         return true;
     }
@@ -118,14 +122,20 @@ std::vector<const Body*> pointers(std::span<const Body> bodies) {
     return result;
 }
 
-void placeDirectional(NacreLight& light, std::span<const Body> bodies, float rim) {
+/// How far around its content a map reaches: a share of its half side, and scene units.
+struct Rim {
+    float share;
+    float length;
+};
+
+void placeDirectional(NacreLight& light, std::span<const Body> bodies, const Rim& rim) {
     const glm::vec3 direction = toVector(light.direction);
     const std::vector<const Body*> all = pointers(bodies);
     std::vector<const Body*> casters;
     std::ranges::copy_if(all, std::back_inserter(casters),
                          [&](const Body* body) { return !shadowsNothing(*body, direction); });
     const Square square = fitSquare(casters.empty() ? all : casters, direction);
-    const float half = std::max(square.half * (1 + rim), 1e-6f);
+    const float half = std::max((square.half + rim.length) * (1 + rim.share), 1e-6f);
     const Interval depth = extent(all, direction);
     const float slack = std::max(0.01f * depth.length(), 1e-6f);
     const glm::vec3 right = square.axes.right / half;
@@ -149,7 +159,7 @@ glm::mat4 perspectiveFrom(const glm::vec3& position, const glm::vec3& right, con
 void placeSpot(NacreLight& light, float rim) {
     const glm::vec3 direction = toVector(light.direction);
     const Axes axes = axesAround(direction);
-    const float focal = 1 / (std::tan(std::min(light.outerConeAngle, largestHalfAngle)) * (1 + rim));
+    const float focal = 1 / (std::tan(light.outerConeAngle) * (1 + rim));
     setShadowClip(light, perspectiveFrom(toVector(light.position), axes.right * focal, -axes.up * focal, direction,
                                          nearToRange * light.shadowRange));
 }
@@ -163,6 +173,19 @@ constexpr std::array<std::array<glm::vec3, 3>, 6> cubeFaces{{{{{0, 0, -1}, {0, -
                                                              {{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}},
                                                              {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}}};
 
+/// [scene units] The radius outside of which a quarter of the light of the scene's widest profile leaves: transmit
+/// looks as far around a point for where light enters.
+float largestSpread(const scene::Scene& scene) {
+    double largest = 0;
+    for (const scene::Instance& instance : scene.instances) {
+        const std::uint32_t material = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material;
+        if (material != scene::none) {
+            largest = std::max(largest, makeProfile(scene.materials.at(material))->quantileRadius(0.75));
+        }
+    }
+    return static_cast<float>(largest / (1000 * scene.metersPerUnit));
+}
+
 /// A little more than to the farthest vertex.
 float reach(std::span<const Body> bodies, const glm::vec3& position) {
     float farthest = 0;
@@ -175,24 +198,24 @@ float reach(std::span<const Body> bodies, const glm::vec3& position) {
 }
 
 /// Places the light's shadow map and returns its layers.
-std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<const Body> bodies, float rim) {
+std::vector<shared::ShadowLayer> placeShadowMap(NacreLight& light, std::span<const Body> bodies, const Rim& rim) {
     if (light.kind == NACRE_LIGHT_DIRECTIONAL) {
         placeDirectional(light, bodies, rim);
     } else {
         light.shadowRange = reach(bodies, toVector(light.position));
     }
     const glm::vec4 origin(toVector(light.position), 1 / light.shadowRange);
-    if (light.kind == NACRE_LIGHT_POINT) {
+    if (light.kind == NACRE_LIGHT_POINT) { // a cube map is seen from outside
         std::vector<shared::ShadowLayer> faces;
         for (const auto& [right, down, forward] : cubeFaces) {
             faces.push_back(
                 {perspectiveFrom(toVector(light.position), right, down, forward, nearToRange * light.shadowRange),
-                 origin, glm::vec4(0)});
+                 origin * glm::vec4(1, 1, 1, -1), glm::vec4(0)});
         }
         return faces;
     }
     if (light.kind == NACRE_LIGHT_SPOT) {
-        placeSpot(light, rim);
+        placeSpot(light, rim.share);
     }
     const float along = light.kind == NACRE_LIGHT_DIRECTIONAL ? 1.0f : 0.0f;
     return {{glm::make_mat4(light.shadowClipFromWorld), origin, glm::vec4(toVector(light.direction), along)}};
@@ -224,9 +247,10 @@ bool sameLight(const scene::Light& a, const scene::Light& b) {
 }
 
 shared::LightConstants makeConstants(const NacreLight& light, float metersPerUnit) {
-    // KHR_lights_punctual, "Inner and Outer Cone Angles".
+    // KHR_lights_punctual, "Inner and Outer Cone Angles". Without a cone the scale is 0.
     const float cosOuter = std::cos(light.outerConeAngle);
-    const float scale = 1 / std::max(0.001f, std::cos(light.innerConeAngle) - cosOuter);
+    const bool hasCone = light.kind != NACRE_LIGHT_DIRECTIONAL && light.outerConeAngle > 0;
+    const float scale = hasCone ? 1 / std::max(0.001f, std::cos(light.innerConeAngle) - cosOuter) : 0.0f;
     const bool shadowed = light.shadowMap != NACRE_NO_SHADOW_MAP;
     return {.position = {toVector(light.position), light.range},
             .direction = {toVector(light.direction), light.shadowRange},
@@ -236,10 +260,10 @@ shared::LightConstants makeConstants(const NacreLight& light, float metersPerUni
             .shadowClipFromWorld = glm::make_mat4(light.shadowClipFromWorld)};
 }
 
-NacreLightKind convert(scene::LightKind kind) {
-    switch (kind) {
+NacreLightKind convert(const scene::Light& light) {
+    switch (light.kind) {
     case scene::LightKind::Spot:
-        return NACRE_LIGHT_SPOT;
+        return light.outerConeAngle <= largestHalfAngle ? NACRE_LIGHT_SPOT : NACRE_LIGHT_POINT;
     case scene::LightKind::Point:
         return NACRE_LIGHT_POINT;
     case scene::LightKind::Directional:
@@ -252,9 +276,11 @@ NacreLightKind convert(scene::LightKind kind) {
 
 LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMapSize)
     : metersPerUnit_(static_cast<float>(scene.metersPerUnit)),
-      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
+      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))),
+      spread_(largestSpread(scene)) {
     for (const scene::Instance& instance : scene.instances) {
         Body body{.points = worldPoints(scene, instance)};
+        body.shinesThrough = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material != scene::none;
         body.normal = anyNormal(body.points);
         bodies_.push_back(std::move(body));
     }
@@ -270,20 +296,22 @@ LightPlacement::Placed LightPlacement::placeAnew(const scene::Light& light) cons
     check(light);
     Placed result{.source = light, .light = {}, .layers = {}};
     NacreLight& placed = result.light;
-    placed.kind = convert(light.kind);
+    placed.kind = convert(light);
     copy(placed.position, light.position);
     copy(placed.direction,
          light.kind == scene::LightKind::Point ? glm::vec3(0, -1, 0) : glm::normalize(light.direction));
     copy(placed.irradiance, light.color * light.intensity);
     placed.range = light.range / metersPerUnit_;
-    placed.innerConeAngle = light.innerConeAngle;
-    placed.outerConeAngle = light.outerConeAngle;
+    if (light.kind == scene::LightKind::Spot) {
+        placed.innerConeAngle = light.innerConeAngle;
+        placed.outerConeAngle = light.outerConeAngle;
+    }
     placed.shadowMap = NACRE_NO_SHADOW_MAP;
     placed.shadowRange = 1;
     setShadowClip(placed, glm::mat4(1));
     if (light.castsShadow) {
         placed.shadowMap = 0;
-        result.layers = placeShadowMap(placed, bodies_, margin_);
+        result.layers = placeShadowMap(placed, bodies_, {margin_, spread_});
     }
     return result;
 }

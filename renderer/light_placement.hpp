@@ -23,7 +23,7 @@ struct LightSet {
 };
 
 /// Places lights over one scene's geometry. A directional light's map is square in world space and fits what can throw
-/// a shadow; a spot's covers its cone; a point light has six faces.
+/// a shadow; a spot's covers its cone; a point light has six faces, and so has a spot whose cone is wide.
 class LightPlacement {
 public:
     /// Places the scene's own lights. `shadowMapSize` [px] sets the margin the filter needs.
@@ -45,9 +45,10 @@ public:
     /// The vertices of an instance in world space, and what they are along its first triangle's normal.
     struct Body {
         std::vector<glm::vec3> points;
-        glm::vec3 normal{0}; ///< zero where no triangle has an area
-        Interval own{};      ///< along the normal
-        Interval all{};      ///< the whole scene along it
+        glm::vec3 normal{0};        ///< zero where no triangle has an area
+        Interval own{};             ///< along the normal
+        Interval all{};             ///< the whole scene along it
+        bool shinesThrough = false; ///< has a subsurface material
     };
     /// A light in its place; its shadow layers count from 0.
     struct Placed {
@@ -62,6 +63,7 @@ private:
 
     float metersPerUnit_;
     float margin_; ///< of the maps, as a share of their half side
+    float spread_; ///< of the maps, scene units
     std::vector<Body> bodies_;
     std::vector<Placed> placed_;
     LightSet set_;

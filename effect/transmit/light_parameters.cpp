@@ -61,8 +61,10 @@ void checkRectangle(const VkRect2D& rectangle, VkExtent2D extent, const FieldNam
 
 void checkLinear(const MapUse& map, VkFormat format, const FieldName& field, const FieldName& range) {
     if (isDepthFormat(format)) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".shadowDepthEncoding is NACRE_DEPTH_LINEAR, but its map, "
-             "NacreTransmitInfo::shadowMaps[", map.shadowMap, "], has the depth format ", FormatName{format},
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field,
+             ".shadowDepthEncoding is NACRE_DEPTH_LINEAR, but its map, "
+             "NacreTransmitInfo::shadowMaps[",
+             map.shadowMap, "], has the depth format ", FormatName{format},
              ", whose values are a depth buffer's; must be NACRE_DEPTH_HARDWARE");
     }
     if (!std::isfinite(map.range) || map.range <= 0) {
@@ -74,10 +76,10 @@ void checkHardware(const NacreLight& light, const MapUse& map, const NacreTransm
     checkFinite(map.clipFromWorld, matrix);
     const bool isCube = light.kind == NACRE_LIGHT_POINT;
     const VkExtent2D size = sizeOf(map, info);
-    if (isCube ? !cubeDecodingOf(map.clipFromWorld, size).isValid
-               : !decodingOf(map.clipFromWorld, {}, size).isValid) {
+    if (isCube ? !cubeDecodingOf(map.clipFromWorld, size).isValid : !decodingOf(map.clipFromWorld, {}, size).isValid) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, matrix, " has no inverse",
-             isCube ? ", must be the perspective projection of a cube's face" : ", must be the matrix the map was drawn with");
+             isCube ? ", must be the perspective projection of a cube's face"
+                    : ", must be the matrix the map was drawn with");
     }
 }
 
@@ -128,8 +130,8 @@ void checkCascades(const NacreLight& light, const NacreTransmitInfo& info, const
 
 void checkShadow(const NacreLight& light, const NacreTransmitInfo& info, const FieldName& field) {
     if (light.shadowDepthEncoding != NACRE_DEPTH_LINEAR && light.shadowDepthEncoding != NACRE_DEPTH_HARDWARE) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".shadowDepthEncoding is ", static_cast<int>(light.shadowDepthEncoding),
-             ", must be a NacreDepthEncoding");
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".shadowDepthEncoding is ",
+             static_cast<int>(light.shadowDepthEncoding), ", must be a NacreDepthEncoding");
     }
     if (light.cascadeChoice != NACRE_CASCADE_BY_MAP && light.cascadeChoice != NACRE_CASCADE_BY_VIEW_DEPTH) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".cascadeChoice is ", static_cast<int>(light.cascadeChoice),
@@ -142,6 +144,11 @@ void checkShadow(const NacreLight& light, const NacreTransmitInfo& info, const F
     }
 }
 
+/// A point light may have one, too.
+bool hasCone(const NacreLight& light) {
+    return light.kind == NACRE_LIGHT_SPOT || (light.kind == NACRE_LIGHT_POINT && light.outerConeAngle > 0);
+}
+
 void checkLight(const NacreLight& light, const FieldName& field, const NacreTransmitInfo& info) {
     if (light.kind < NACRE_LIGHT_DIRECTIONAL || light.kind > NACRE_LIGHT_POINT) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".kind is ", static_cast<int>(light.kind),
@@ -152,7 +159,7 @@ void checkLight(const NacreLight& light, const FieldName& field, const NacreTran
     for (const float value : light.irradiance) {
         checkRange(value, 0, 3e38f, field + ".irradiance");
     }
-    if (light.kind != NACRE_LIGHT_POINT) {
+    if (light.kind != NACRE_LIGHT_POINT || hasCone(light)) {
         checkFinite(light.direction, field + ".direction");
         if (std::hypot(light.direction[0], light.direction[1], light.direction[2]) < 1e-12f) {
             fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".direction is 0,0,0, must have a length");
@@ -162,7 +169,7 @@ void checkLight(const NacreLight& light, const FieldName& field, const NacreTran
     for (const float value : light.attenuation) {
         checkRange(value, 0, 3e38f, field + ".attenuation");
     }
-    if (light.kind == NACRE_LIGHT_SPOT) {
+    if (light.kind != NACRE_LIGHT_DIRECTIONAL) {
         checkRange(light.outerConeAngle, 0, std::numbers::pi_v<float> / 2, field + ".outerConeAngle");
         checkRange(light.innerConeAngle, 0, light.outerConeAngle, field + ".innerConeAngle");
     }
@@ -205,7 +212,7 @@ void setProjection(LightParameters& parameters, const float (&clipFromWorld)[16]
 LightParameters parametersOf(const NacreLight& light, float metersPerUnit) {
     LightParameters parameters{};
     parameters.position = {light.position[0], light.position[1], light.position[2], light.range};
-    if (light.kind != NACRE_LIGHT_POINT) {
+    if (light.kind != NACRE_LIGHT_POINT || hasCone(light)) {
         const float length = std::hypot(light.direction[0], light.direction[1], light.direction[2]);
         parameters.direction = {light.direction[0] / length, light.direction[1] / length, light.direction[2] / length,
                                 0};
@@ -214,7 +221,7 @@ LightParameters parametersOf(const NacreLight& light, float metersPerUnit) {
     const float* a = light.attenuation;
     const bool isPhysical = a[0] == 0 && a[1] == 0 && a[2] == 0;
     parameters.attenuation = isPhysical ? vec4{0, 0, 1, 0} : vec4{a[0], a[1], a[2], 0};
-    if (light.kind == NACRE_LIGHT_SPOT) {
+    if (hasCone(light)) {
         const float outer = std::cos(light.outerConeAngle);
         parameters.coneScale = 1.0f / std::max(std::cos(light.innerConeAngle) - outer, 0.001f);
         parameters.coneOffset = -outer * parameters.coneScale;

@@ -1,4 +1,4 @@
-// Light through a body by several shadow maps of one light. Needs filteredTransmittance, `lights` and what it needs.
+// Light through a body by several shadow maps of one light. Needs lightThrough, `lights` and what it needs.
 
 // How far a point is inside a map: 0 at its border, 1 in the middle, along the axis on which it is nearer to the border.
 float depthInMap(LightParameters cascade, ShadowPoint point) {
@@ -18,9 +18,9 @@ float cascadeShare(LightParameters light, LightParameters cascade, Receiver rece
     return point.inside ? clamp(remaining / blend, 0.0, 1.0) : 0.0;
 }
 
-// As filteredTransmittance. The last cascade that has the point tells what those before it leave. `point` becomes that of
+// As lightThrough. The last cascade that has the point tells what those before it leave. `point` becomes that of
 // the coarsest map that was asked; it is inside where one was.
-vec4 throughCascades(LightParameters light, Receiver receiver, float cosine, inout ShadowPoint point) {
+vec4 throughCascades(LightParameters light, Receiver receiver, vec3 toLight, float cosine, inout ShadowPoint point) {
     vec4 sum = vec4(0.0);
     float left = 1.0;
     for (uint i = 0u; i < light.cascadeCount && left > 0.0; ++i) {
@@ -28,7 +28,7 @@ vec4 throughCascades(LightParameters light, Receiver receiver, float cosine, ino
         ShadowPoint there = project(cascade, receiver);
         float share = left * cascadeShare(light, cascade, receiver, there);
         for (bool asked = share > 0.0; asked; asked = false) {
-            sum += share * filteredTransmittance(cascade, receiver, there, cosine);
+            sum += share * lightThrough(cascade, receiver, there, toLight, cosine);
             there.texelSize = max(there.texelSize, point.texelSize);
             point = there;
         }

@@ -30,12 +30,14 @@ mat4 storedDepths(uint map, ivec4 columns, ivec4 rows, uint layer) {
     return stored;
 }
 
+// [mm] Depth where nothing was drawn.
+const float nothingThere = 1e30;
+
 // Depth of a place in a depth buffer along the light, mm. What was never drawn may be infinitely far.
 float decodedDepth(LightParameters light, vec4 place) {
-    const float farthest = 1e30;
     vec3 offset = place.xyz;
     float depth = light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset);
-    return place.w > 0.0 ? min(depth / place.w * view.mmPerUnit, farthest) : farthest;
+    return place.w > 0.0 ? min(depth / place.w * view.mmPerUnit, nothingThere) : nothingThere;
 }
 
 mat4 decodedDepths(LightParameters light, mat4 stored, vec4 columns, vec4 rows) {
@@ -50,7 +52,8 @@ mat4 decodedDepths(LightParameters light, mat4 stored, vec4 columns, vec4 rows) 
     return depths;
 }
 
-// Depth along the light of 4x4 texels of its shadow map, mm. A matrix's column is a row of the map.
+// Depth along the light of 4x4 texels of its shadow map, mm, below 0 where a map of linear depth says that a body's back is
+// there. A matrix's column is a row of the map.
 mat4 depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint layer) {
     ivec4 x = ivec4(columns);
     ivec4 y = ivec4(rows);
@@ -62,7 +65,12 @@ mat4 depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint layer
     if (generalLights && (light.shadowFlags & shadowHardwareDepth) != 0u) {
         return decodedDepths(light, stored, columns, rows);
     }
-    return stored * (light.direction.w * view.mmPerUnit);
+    float range = light.direction.w * view.mmPerUnit;
+    mat4 depths;
+    for (int row = 0; row < 4; ++row) {
+        depths[row] = mix(stored[row] * range, vec4(nothingThere), step(1.0, stored[row]));
+    }
+    return depths;
 }
 
 // Whether a light's map has the faces that look away from the light, the receiver's own among them.

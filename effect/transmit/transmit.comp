@@ -40,20 +40,16 @@ layout(set = 0, binding = bindingThicknessOut) uniform writeonly image2D thickne
 #include "transmittance.glsl"
 
 const uint lightDirectional = 0u; // NacreLightKind
-const uint lightSpot = 1u;
 const uint lightPoint = 2u;
 const uint noShadowMap = 0xffffffffu;
 
 #include "shadow_depth.glsl"
 
-// [1] Least cosine between -normal and the light by which the receiver's offset is turned into thickness.
-const float leastCosine = 0.2;
-// [1] Longest step along the receiver's plane, over texel size, that taps follow.
-const float steepestPlane = 4.0;
 // [1] How far an entry point may lie from the surface that is seen at its pixel and still be the same: this many texels of
 // the shadow map plus pixels plus this share of the thickness. From there to twice that, the answer fades.
 const float sameSurfaceTexels = 1.5;
 const float sameSurfaceShare = 0.02;
+const float sameSurfaceSpread = 0.25;
 // [1] Cosine between the normal and the way to the camera below which a surface's depth is no longer told more exactly.
 const float leastFacing = 0.3;
 // [1] The same cosine from which on all light around an entry point is taken to enter where the camera sees it.
@@ -111,7 +107,7 @@ Incidence incidenceAt(LightParameters light, vec3 position) {
         float share = squared / (light.position.w * light.position.w);
         attenuation *= clamp(1.0 - share * share, 0.0, 1.0);
     }
-    if (light.kind == lightSpot) {
+    if (light.coneScale > 0.0) {
         float cone = clamp(dot(light.direction.xyz, -toLight) * light.coneScale + light.coneOffset, 0.0, 1.0);
         attenuation *= cone * cone;
     }
@@ -157,78 +153,63 @@ ShadowPoint project(LightParameters light, Receiver receiver) {
     return point;
 }
 
-// How a point moves along the receiver's tangent plane from one texel of the shadow map to the next, in x and y. Taps
-// are compared with the plane, not with the point, so that a slab is as thick under every tap.
-mat2x3 planeSteps(ShadowPoint point, vec3 normal) {
-    vec3 gradientX = point.projection.x.xyz - point.texel.x * point.projection.w.xyz; // of texel · w
-    vec3 gradientY = point.projection.y.xyz - point.texel.y * point.projection.w.xyz;
-    vec3 alongX = cross(gradientY, normal);
-    vec3 alongY = cross(normal, gradientX);
-    float determinant = dot(gradientX, alongX);
-    float longest = sqrt(max(dot(alongX, alongX), dot(alongY, alongY)));
-    float scale = min(point.w / abs(determinant), steepestPlane * point.texelSize / max(longest, 1e-20));
-    return mat2x3(alongX, alongY) * (scale * sign(determinant));
-}
-
-// Linear depth of the plane's points under 4x4 taps at x and y from its middle: constant + slope·y + square.
-struct PlaneDepths {
-    vec4 constant, slope; // per column
-    vec4 square;          // per row
-};
-
-// A distance from the light is expanded to second order: a tap is far closer to the middle than the middle is to the light.
-PlaneDepths planeDepths(LightParameters light, vec3 offset, mat2x3 steps, vec4 x, vec4 y) {
-    bool isDirectional = light.kind == lightDirectional;
-    vec3 direction = isDirectional ? light.direction.xyz : normalize(offset);
-    float depth = dot(offset, direction);
-    vec2 gradient = direction * steps;
-    float halfCurvature = isDirectional ? 0.0 : 0.5 / depth;
-    vec3 second = halfCurvature * vec3(dot(steps[0], steps[0]) - gradient.x * gradient.x,
-                                       2.0 * (dot(steps[0], steps[1]) - gradient.x * gradient.y),
-                                       dot(steps[1], steps[1]) - gradient.y * gradient.y);
-    return PlaneDepths(depth + x * (gradient.x + second.x * x), gradient.y + second.y * x, second.z * y * y);
-}
-
-// Texels of the 4 taps on an axis, and their weights.
-void taps(float coordinate, float last, out vec4 texels, out vec4 weights) {
-    const vec4 tap = vec4(-1.0, 0.0, 1.0, 2.0);
-    float spacing = max(0.5 * parameters.filterRadius, 0.5);
-    float base = floor(coordinate / spacing - 0.5);
-    float fraction = coordinate / spacing - 0.5 - base;
-    texels = clamp(floor((base + tap + 0.5) * spacing), 0.0, last);
-    weights = 0.5 - 0.25 * abs(tap - fraction);
-}
+#include "entry.glsl"
 
 // Whether the light that comes through has to be looked for in the picture. The thesis does not ask.
 bool mayCountTwice(vec3 transmittance) {
     return any(greaterThan(transmittance, vec3(leastTwice))) && !hasFlag(flagThesisTransmittance);
 }
 
-// Transmittance (rgb) and thickness in mm (w), filtered over 4x4 texels under a tent of filterRadius. The light's way
-// through what the normal offset cut off is added again. What is filtered is the transmittance: light adds up, thickness
-// does not.
-vec4 filteredTransmittance(LightParameters light, Receiver receiver, ShadowPoint point, float cosine) {
-    vec4 columns, rows, columnWeights, rowWeights;
-    taps(point.texel.x, light.shadowSize.x - 1.0, columns, columnWeights);
-    taps(point.texel.y, light.shadowSize.y - 1.0, rows, rowWeights);
-    mat4 entries = depthsAlongLight(light, columns, rows, point.projection.layer);
-    mat2x3 steps = planeSteps(point, receiver.normal);
-    vec4 x = columns + 0.5 - point.texel.x;
-    vec4 y = rows + 0.5 - point.texel.y;
-    PlaneDepths plane = planeDepths(light, point.offset * view.mmPerUnit, steps * view.mmPerUnit, x, y);
-    float removed = point.moved / max(cosine, leastCosine) * view.mmPerUnit;
-    float most = receiver.authored > 0.0 ? receiver.authored : 1e30;
-    if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
-        entries -= receiver.authored;
-        most = 1e30;
-    }
+// [0, 1] Whether the map can tell how thick a body is: its texels are smaller than the profile is wide, or what they say
+// lies no farther from the receiver.
+float certaintyOf(Receiver receiver, float texelSize, float deviation) {
+    float least = min(texelSize * view.mmPerUnit, deviation);
+    return clamp(2.0 - 2.0 * least / reachOf(receiver.material), 0.0, 1.0);
+}
+
+// The thesis's own: along the light, under the receiver's cosine.
+vec4 thesisThrough(Receiver receiver, LitPoints points, vec4 columnWeights, vec4 rowWeights, float cosine) {
+    float most = receiver.authored > 0.0 ? receiver.authored : opaque;
     mat4 thickness;
-    for (int i = 0; i < 4; ++i) {
-        vec4 depths = plane.constant + plane.slope * y[i];
-        thickness[i] = clamp(depths + (plane.square[i] + removed) - entries[i], 0.0, most);
+    for (int row = 0; row < 4; ++row) {
+        thickness[row] = clamp(points.z[row], 0.0, most);
     }
-    float mean = dot(thickness * rowWeights, columnWeights);
-    return vec4(transmittance(receiver.material, thickness, columnWeights, rowWeights), mean);
+    vec3 through = transmittance(receiver.material, thickness, columnWeights, rowWeights);
+    return vec4(through * cosine, dot(thickness * rowWeights, columnWeights));
+}
+
+// What comes through of a light that shines on a surface that faces it with 1 (rgb), and thickness along the light in mm
+// (w). What is filtered is the transmittance: light adds up, thickness does not.
+vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, vec3 toLight, float cosine) {
+    vec4 columns, rows, columnWeights, rowWeights;
+    float spacing = entrySpacingOf(light, receiver.material, point.texelSize);
+    taps(point.texel.x, spacing, light.shadowSize.x - 1.0, columns, columnWeights);
+    taps(point.texel.y, spacing, light.shadowSize.y - 1.0, rows, rowWeights);
+    mat4 depths = depthsAlongLight(light, columns, rows, point.projection.layer);
+    float texel = point.texelSize * view.mmPerUnit;
+    float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
+    bool isAuthored = receiver.authored > 0.0;
+    bool isBounded = isAuthored;
+    if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
+        depths -= receiver.authored;
+        isBounded = false;
+    }
+    float inmost = isBounded ? 2.0 * receiver.authored + (bodyTexels + bodySpacings * spacing) * texel : opaque;
+    EntryFrame frame = entryFrame(light, point, receiver.normal, toLight);
+    LitPoints points = litPoints(frame, depths, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
+                                 rowWeights, farthest, inmost);
+    if (hasFlag(flagThesisTransmittance)) {
+        return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
+    }
+    EntryPlane plane = entryPlane(points, frame.normal);
+    float most = isBounded ? receiver.authored : opaque;
+    mat4 thickness = entryThickness(points, plane, min(abs(plane.height) * plane.cosine, most));
+    vec3 through = transmittance(receiver.material, thickness, columnWeights, rowWeights);
+    through *= plane.cosine * entryShare(plane.opposite);
+    float certainty = certaintyOf(receiver, point.texelSize, plane.deviation);
+    float authored = isAuthored ? cosine * (1.0 - points.shadowed) : 0.0;
+    vec3 otherwise = authored * transmittance(receiver.material, receiver.authored);
+    return vec4(mix(otherwise, through, certainty), min(max(plane.height, 0.0), most));
 }
 
 #include "shadow_cascades.glsl"
@@ -280,19 +261,20 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     }
     bool inCascades = generalLights && light.cascadeCount > 0u;
     for (bool inside = inCascades; inside; inside = false) {
-        through = throughCascades(light, receiver, cosine, point);
+        through = throughCascades(light, receiver, incidence.toLight, cosine, point);
     }
     for (bool inside = point.inside && !inCascades; inside; inside = false) { // software devices skip it where no pixel is inside
-        through = filteredTransmittance(light, receiver, point, cosine);
+        through = lightThrough(light, receiver, point, incidence.toLight, cosine);
     }
     if (!point.inside && receiver.authored > 0.0) {
-        through = vec4(transmittance(receiver.material, receiver.authored), receiver.authored);
+        through = vec4(transmittance(receiver.material, receiver.authored) * cosine, receiver.authored);
     }
     for (bool asks = mayCountTwice(through.rgb); asks; asks = false) {
-        float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w;
+        float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w +
+                          sameSurfaceSpread * tables[receiver.material].spread;
         through.rgb *= hiddenShare(receiver, incidence.toLight, through.w, tolerance);
     }
-    return vec4(through.rgb * incidence.irradiance * cosine, through.w);
+    return vec4(through.rgb * incidence.irradiance, through.w);
 }
 
 void writeResult(ivec2 pixel, vec3 light, float thickness) {

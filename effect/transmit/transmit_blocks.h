@@ -30,7 +30,8 @@ NACRE_CONSTANT transmittanceLast = transmittanceOctaves << transmittanceMantissa
 struct TransmitTable {
     float scale;     // 1/mm
     uint layerCount; // 0 = Burley's profile
-    uint unused0, unused1;
+    float spread;    // mm, outside of which a quarter of the widest channel's light leaves
+    uint unused;
     uvec2 transmittance[transmittanceLast + 2];
     vec4 layers[maxLayers];
 };
@@ -42,7 +43,7 @@ struct LightParameters {
     vec4 position;   // w: range, 0 = unlimited
     vec4 direction;  // normalised; w: shadowRange
     vec4 irradiance; // w: millimetres per unit times 1e-3, i.e. metres per unit
-    float coneScale; // KHR_lights_punctual: spot attenuation = saturate(cos·coneScale + coneOffset)²
+    float coneScale; // KHR_lights_punctual: spot attenuation = saturate(cos·coneScale + coneOffset)²; 0: no cone
     float coneOffset;
     uint kind;
     uint shadowMap; // NACRE_NO_SHADOW_MAP = none

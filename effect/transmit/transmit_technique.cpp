@@ -16,6 +16,8 @@ namespace {
 
 /// The thickness at which the table ends lets this share of the light through.
 constexpr double tableEndShare = 1e-4;
+/// TransmitTable::spread is the radius outside of which this share of the light leaves.
+constexpr double spreadShare = 0.25;
 
 void setLayers(TransmitTable& table, std::span<const Layer> layers) {
     constexpr double leastVariance = 1e-12; // mm²: a point mass lets light through no thickness at all
@@ -30,6 +32,7 @@ void buildTable(const Material&, const Profile& profile, std::span<std::byte> by
     const double end = profile.quantileRadius(1 - tableEndShare);
     const double scale = transmittanceEnd / end;
     table.scale = static_cast<float>(scale);
+    table.spread = static_cast<float>(profile.quantileRadius(1 - spreadShare));
     if (const auto* layered = dynamic_cast<const SumOfGaussiansProfile*>(&profile)) {
         setLayers(table, layered->layers());
     }

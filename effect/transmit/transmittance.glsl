@@ -29,6 +29,11 @@ vec3 layerTransmittance(uint material, mat4 thickness, vec4 columnWeights, vec4 
     return sum;
 }
 
+// [mm] Thickness that lets nothing through.
+float reachOf(uint material) {
+    return float(transmittanceEnd) / tables[material].scale;
+}
+
 // Adds the weighted transmittance of a slab at x = 1 + scale·d of the table. The bits of a float that is at least 1
 // count the steps of exponent and mantissa that it is beyond 1.
 void addTableTransmittance(uint material, float x, float weight, inout vec3 sum) {

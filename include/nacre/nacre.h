@@ -280,8 +280,10 @@ typedef struct NacreMaterial {
                                    walls, the share f of the light that goes through (see WHAT TO DO WITH THE RESULTS) */
     float scale;              /**< [1e-6, 1e4] multiplies the profile's lengths, which keep to
                                   their ranges; 0 = 1 */
-    float thickness;          /**< [>= 0] mm, authored thickness: bounds the shadow maps' estimate, or stands in for it
-                                   where a light has none; 0 = not authored */
+    float thickness;          /**< [>= 0] mm, authored thickness across the body: bounds the shadow maps' estimate, or stands
+                                   in for it where a light has none or its texels are as large as light goes far. What a
+                                   map shows much farther towards the light is another body, which shadows. 0 = not
+                                   authored: where a map cannot tell, nothing shines through */
     uint32_t exchangeGroups;  /**< bit mask: light crosses between two materials on one surface (with the receiver's
                                    profile) when they share a bit; 0 = only within the material */
     VkBool32 secondSurfaces;  /**< frames with a material that has it are scattered as by
@@ -381,20 +383,22 @@ typedef struct NacreLight {
     NacreLightKind kind;
     float position[3];        /**< spot, point: where it is. Directional: the origin of the shadow map's linear depth; of
                                    hardware depth not read */
-    float direction[3];       /**< directional, spot: the way the light travels; need not be normalised */
+    float direction[3];       /**< directional, spot, point with a cone: the way the light travels; need not be normalised */
     float irradiance[3];      /**< directional: on a surface that faces it; spot, point: the same at one metre */
     float range;              /**< scene units, spot and point: falls to zero there (KHR_lights_punctual); 0 = unlimited */
     float attenuation[3];     /**< [>= 0] spot and point: irradiance is divided by a[0] + a[1]·d + a[2]·d², d in metres.
                                    All 0 = {0, 0, 1}, which is physical; {1, 0, 0} = the same at every distance, as where
                                    the caller has put the distance into `irradiance` */
-    float innerConeAngle;     /**< [rad] half angle, spot */
-    float outerConeAngle;     /**< [rad] half angle, spot */
+    float innerConeAngle;     /**< [0 … outerConeAngle] rad, half angle, spot */
+    float outerConeAngle;     /**< [0 … π/2] rad, half angle, spot. Of a point light: 0 = it shines all around; above, it is
+                                   a spot whose map has six layers, as one wide cone needs */
     uint32_t shadowMap;       /**< index into NacreTransmitInfo::shadowMaps, or NACRE_NO_SHADOW_MAP */
     uint32_t shadowLayer;     /**< its first array layer; a point light has six, faces +X -X +Y -Y +Z -Z as in a cube map */
     float shadowClipFromWorld[16]; /**< directional, spot: the matrix the map was drawn with. Point with hardware depth: the
                                    projection of a face, of which [10], [11], [14] and [15] are read */
-    float shadowRange;        /**< scene units: linear depth = stored value · shadowRange. Directional: along `direction`
-                                   from `position`; spot, point: distance from `position` */
+    float shadowRange;        /**< scene units: linear depth = |stored value| · shadowRange. Directional: along `direction`
+                                   from `position`; spot, point: distance from `position`. 1: nothing is there. Below 0:
+                                   the back of a body that has an inside, which shadows, but where no light enters */
     NacreDepthEncoding shadowDepthEncoding; /**< how the map's values become depth; maps in depth formats have
                                    NACRE_DEPTH_HARDWARE */
     VkRect2D shadowRectangle; /**< px: the light's part of the map's layers (an atlas), which shadowClipFromWorld maps to
@@ -433,7 +437,7 @@ typedef struct NacreTransmitInfo {
     const struct NacreBaselineSettings* baselines; /**< of nacre_baselines.h; null = their defaults */
     NacreImage transmitted;       /**< output: transmitted irradiance, without albedo; 0 where there is none, and where
                                        the light enters at a point that the camera sees */
-    NacreImage thicknessOut;      /**< optional output, red: the thickness used, mm, smallest over the lights that
+    NacreImage thicknessOut;      /**< optional output, red: the thickness along the light, mm, smallest over the lights that
                                        reach the pixel from behind; 0 = none */
     NacreTimestamps timestamps;
 } NacreTransmitInfo;

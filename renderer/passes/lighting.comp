@@ -65,7 +65,7 @@ vec3 arrivingLight(LightConstants light, vec3 position, out vec3 toLight) {
     float ratio = light.position.w > 0.0 ? distance / light.position.w : 0.0;
     float falloff = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0) / max(meters * meters, 1e-8);
     float cone = 1.0;
-    if (light.kind.x == lightSpot) {
+    if (light.cone.x > 0.0) {
         cone = clamp(-dot(light.direction.xyz, toLight) * light.cone.x + light.cone.y, 0.0, 1.0);
     }
     return light.irradiance.rgb * (falloff * cone * cone);

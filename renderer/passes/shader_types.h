@@ -64,7 +64,7 @@ struct LightConstants {
     vec4 position;   ///< w: range in scene units, 0 = unlimited
     vec4 direction;  ///< the way the light travels, normalised; w: shadow range in scene units
     vec4 irradiance; ///< facing it; spot, point: at one metre. w: metres per unit
-    vec4 cone;       ///< x, y: scale and offset of the cone's cosine
+    vec4 cone;       ///< x, y: scale and offset of the cone's cosine; 0: no cone
     uvec4 kind;      ///< x: kind, y: first shadow layer or noShadow
     mat4 shadowClipFromWorld;
 };
@@ -72,7 +72,7 @@ struct LightConstants {
 /// One layer of the shadow maps, as it is drawn.
 struct ShadowLayer {
     mat4 clipFromWorld;
-    vec4 origin;    ///< linear depth is measured from here; w: 1 / shadow range
+    vec4 origin;    ///< linear depth is measured from here; w: 1 / shadow range, negative where the layer is a mirror image
     vec4 direction; ///< w: 1 when depth is along the direction, 0 when it is the distance from the origin
 };
 

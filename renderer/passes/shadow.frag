@@ -23,5 +23,7 @@ void main() {
 #endif
     ShadowLayer layer = layers[draw.index.y];
     float depth = layer.direction.w != 0.0 ? dot(inFromOrigin, layer.direction.xyz) : length(inFromOrigin);
-    outDepth = depth * layer.origin.w;
+    // The back of a body that has an inside is no place where light enters: less than 0 says so.
+    bool showsBack = gl_FrontFacing == (layer.origin.w < 0.0) && (draw.index.w & isDoubleSided) == 0u;
+    outDepth = depth * abs(layer.origin.w) * (showsBack ? -1.0 : 1.0);
 }

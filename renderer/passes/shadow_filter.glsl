@@ -121,7 +121,7 @@ float shadowVisibility(sampler2DArray maps, LightConstants light, vec3 position,
             vec2 corner = base + vec2(i, j);
             vec2 low = clamp(corner - 1.0, vec2(0.0), last) - center;
             vec2 high = clamp(corner, vec2(0.0), last) - center;
-            vec4 stored = textureGather(maps, vec3(corner / size, float(projection.layer)));
+            vec4 stored = abs(textureGather(maps, vec3(corner / size, float(projection.layer)))); // less than 0: a back
             vec4 lit = litTexels(stored, low, high, biased, slope);
             sum += dot(lit, vec4(weightX[i], weightX[i + 1], weightX[i + 1], weightX[i]) *
                                 vec4(weightY[j + 1], weightY[j + 1], weightY[j], weightY[j]));

@@ -1,5 +1,5 @@
-// Ids, normals and masks as engines have them give the picture that the plainest images give; a scissor gives the part of it;
-// compose gives its sum.
+// Ids, normals and masks as engines have them give the picture that the plainest images give; a scissor gives the part
+// of it; compose gives its sum.
 #include "tests/gpu/support/effect.hpp"
 
 #include <algorithm>
@@ -59,7 +59,8 @@ protected:
             input_.depth[i] = 30 + 0.2f * static_cast<float>(y);
             // All around, in view space; those that look away are silhouettes' and interpolation's.
             const double turnX = 0.13 * (x - 12.0), turnY = 0.13 * (y - 12.0);
-            inView_.push_back({static_cast<float>(std::sin(turnX)), static_cast<float>(std::cos(turnX) * std::sin(turnY)),
+            inView_.push_back({static_cast<float>(std::sin(turnX)),
+                               static_cast<float>(std::cos(turnX) * std::sin(turnY)),
                                static_cast<float>(std::cos(turnX) * std::cos(turnY)), 0});
             input_.normal.push_back(rotated(input_.view, inView_.back(), true));
         }
@@ -106,16 +107,20 @@ protected:
         compose.composed = images.scattered.nacre();
         EXPECT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
         gpu.run([&](VkCommandBuffer commandBuffer) {
-            EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_SUCCESS) << effect.messages.back();
-            EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &transmit), NACRE_SUCCESS) << effect.messages.back();
+            EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_SUCCESS)
+                << effect.messages.back();
+            EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &transmit), NACRE_SUCCESS)
+                << effect.messages.back();
             VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
             written.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
             written.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-            vkCmdPipelineBarrier(commandBuffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
-                                 1, &written, 0, nullptr, 0, nullptr);
-            EXPECT_EQ(nacreCmdCompose(effect.context, commandBuffer, &compose), NACRE_SUCCESS) << effect.messages.back();
+            vkCmdPipelineBarrier(commandBuffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &written, 0, nullptr, 0, nullptr);
+            EXPECT_EQ(nacreCmdCompose(effect.context, commandBuffer, &compose), NACRE_SUCCESS)
+                << effect.messages.back();
         });
-        return {gpu.download<Float4>(scattered), gpu.download<Float4>(transmitted), gpu.download<Float4>(images.scattered)};
+        return {gpu.download<Float4>(scattered), gpu.download<Float4>(transmitted),
+                gpu.download<Float4>(images.scattered)};
     }
     static void expectSame(const Pictures& a, const Pictures& b, float tolerance, const std::string& what) {
         double most = 0;
@@ -156,13 +161,15 @@ TEST_F(EncodingsTest, IdsOfStencilsAndChannels) {
                                       .components = {.r = VK_COMPONENT_SWIZZLE_A}});
     gpu.upload(alpha, channels);
     for (const GpuImage* image : {&stencil, &alpha}) {
-        expectSame(render(masked, NACRE_TECHNIQUE_SEPARABLE, [&](NacreScatterInfo& info) { info.materialId = image->nacre(); }),
+        expectSame(render(masked, NACRE_TECHNIQUE_SEPARABLE,
+                          [&](NacreScatterInfo& info) { info.materialId = image->nacre(); }),
                    plain, 0, "VkFormat " + std::to_string(image->format));
     }
     Effect effect(gpu, masked);
     const NacreMaterial material = nacreDefaultMaterial();
     EXPECT_EQ(nacreSetMaterials(effect.context, 4, 1, &material), NACRE_ERROR_INVALID_ARGUMENT);
-    EXPECT_NE(effect.messages.back().find("no pixel can have id 4, NacreContextInfo::materialIdMask is 12"), std::string::npos)
+    EXPECT_NE(effect.messages.back().find("no pixel can have id 4, NacreContextInfo::materialIdMask is 12"),
+              std::string::npos)
         << effect.messages.back();
 }
 
@@ -200,8 +207,8 @@ TEST_F(EncodingsTest, NormalsOfEveryKind) {
             const std::vector<Float4>& normals = space == NACRE_NORMAL_VIEW ? inView_ : input_.normal;
             GpuImage vectors = gpu.createImage({.extent = extent});
             gpu.upload(vectors, normals);
-            expectSame(render(info, technique, [&](NacreScatterInfo& scatter) { scatter.normal = vectors.nacre(); }), plain,
-                       1e-5f, "three channels");
+            expectSame(render(info, technique, [&](NacreScatterInfo& scatter) { scatter.normal = vectors.nacre(); }),
+                       plain, 1e-5f, "three channels");
             info.normalEncoding = NACRE_NORMAL_OCTAHEDRAL;
             std::vector<std::array<float, 2>> floats;
             std::vector<std::array<std::int16_t, 2>> numbers;
@@ -215,7 +222,8 @@ TEST_F(EncodingsTest, NormalsOfEveryKind) {
                                            static_cast<std::uint16_t>(std::lround((oct[1] + 1) * 32767.5f))});
             }
             const auto expectFormat = [&](VkFormat format, const auto& texels, float scale, float bias) {
-                GpuImage image = gpu.createImage({.format = format, .extent = extent, .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+                GpuImage image =
+                    gpu.createImage({.format = format, .extent = extent, .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
                 gpu.upload(image, texels);
                 expectSame(render(info, technique,
                                   [&](NacreScatterInfo& scatter) {
@@ -237,7 +245,8 @@ TEST_F(EncodingsTest, NormalsOfEveryKind) {
     gpu.run([&](VkCommandBuffer commandBuffer) {
         EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_ERROR_UNSUPPORTED_FORMAT);
     });
-    EXPECT_NE(effect.messages.back().find("normal.format is VK_FORMAT_R16G16_SNORM, which has two channels"), std::string::npos);
+    EXPECT_NE(effect.messages.back().find("normal.format is VK_FORMAT_R16G16_SNORM, which has two channels"),
+              std::string::npos);
 }
 
 TEST_F(EncodingsTest, ScissorGivesThePartOfThePicture) {
@@ -271,8 +280,9 @@ TEST_F(EncodingsTest, ScissorGivesThePartOfThePicture) {
     gpu.run([&](VkCommandBuffer commandBuffer) {
         EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_ERROR_INVALID_ARGUMENT);
     });
-    EXPECT_NE(effect.messages.back().find("view.scissor is 15x2 at 10,10, must lie within the render area, 24x24 at 0,0"),
-              std::string::npos)
+    EXPECT_NE(
+        effect.messages.back().find("view.scissor is 15x2 at 10,10, must lie within the render area, 24x24 at 0,0"),
+        std::string::npos)
         << effect.messages.back();
 }
 

@@ -1,9 +1,14 @@
-// Transmit's filter against the sum over its taps: a plane lit from behind through bodies of uneven thickness.
+// Transmit against the same sum over the points of the lit surface in double precision: a plane lit from behind through
+// bodies of uneven thickness.
 #include "nacre/profile.hpp"
 #include "tests/gpu/support/effect.hpp"
+#include "tests/support/synthetic_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <vector>
 
 using namespace nacre;
 using namespace nacre::tests;
@@ -49,20 +54,65 @@ Lighting bordered(NacreLightKind kind, double side, float filterRadius) {
             .normalOffset = 1e-6f};
 }
 
-/// The taps of an axis at a coordinate in texels: a tent.
+/// The taps of an axis at a coordinate in texels: a tent. What is outside of the map has no weight.
 struct Taps {
-    Taps(double coordinate, double radius, int mapSize) {
-        const double spacing = std::max(0.5 * radius, 0.5);
+    Taps(double coordinate, double spacing, int mapSize) {
         const double middle = coordinate / spacing - 0.5;
+        double sum = 0;
         for (int i = 0; i < 4; ++i) {
             const double tap = std::floor(middle) - 1 + i;
-            texels[i] = std::clamp(static_cast<int>(std::floor((tap + 0.5) * spacing)), 0, mapSize - 1);
-            weights[i] = 0.5 - 0.25 * std::abs(tap - middle);
+            texels[i] = static_cast<int>(std::floor((tap + 0.5) * spacing));
+            const bool inside = texels[i] >= 0 && texels[i] < mapSize;
+            weights[i] = inside ? 0.5 - 0.25 * std::abs(tap - middle) : 0;
+            sum += weights[i];
+        }
+        for (int i = 0; i < 4; ++i) {
+            weights[i] = sum > 0 ? weights[i] / sum : 0.5 - 0.25 * std::abs(std::floor(middle) - 1 + i - middle);
+            texels[i] = std::clamp(texels[i], 0, mapSize - 1);
         }
     }
     int texels[4];
     double weights[4];
 };
+
+/// z = height + slopeX·x + slopeY·y, by least squares.
+struct Plane {
+    double height = 0, slopeX = 0, slopeY = 0;
+
+    Plane(std::span<const Vector3<double>> points, std::span<const double> weights) {
+        double sum = 0;
+        Vector3<double> mean{};
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            sum += weights[i];
+            mean = mean + weights[i] * points[i];
+        }
+        mean = 1 / std::max(sum, 1e-6) * mean;
+        double xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Vector3<double> d = points[i] - mean;
+            const double weight = weights[i] / std::max(sum, 1e-6);
+            xx += weight * d[0] * d[0];
+            xy += weight * d[0] * d[1];
+            yy += weight * d[1] * d[1];
+            xz += weight * d[0] * d[2];
+            yz += weight * d[1] * d[2];
+        }
+        const double farAway = mean[0] * mean[0] + mean[1] * mean[1];
+        const double least = 1e-3 * (xx + yy) + 1e-5 * (xx + yy + farAway) + 1e-12;
+        const double determinant = (xx + least) * (yy + least) - xy * xy;
+        slopeX = (xz * (yy + least) - yz * xy) / determinant;
+        slopeY = (yz * (xx + least) - xz * xy) / determinant;
+        height = mean[2] - slopeX * mean[0] - slopeY * mean[1];
+    }
+    double cosine() const { return 1 / std::hypot(1, slopeX, slopeY); }
+    Vector3<double> under(const Vector3<double>& point) const {
+        return {point[0], point[1], height + slopeX * point[0] + slopeY * point[1]};
+    }
+};
+
+double lengthOf(const Vector3<double>& v) {
+    return std::sqrt(dot(v, v));
+}
 
 class TransmitFilterTest : public GpuTest {
 protected:
@@ -83,7 +133,7 @@ protected:
                 continue;
             }
             for (int channel = 0; channel < 3; ++channel) {
-                const double expected = tapSum(*profile, channel, body, lighting, point);
+                const double expected = entrySum(*profile, channel, body, lighting, point);
                 const double difference =
                     std::abs(image[static_cast<std::size_t>(i)][channel] / point.irradiance - expected);
                 // Not less than, so that NaN counts.
@@ -135,27 +185,68 @@ private:
             column = 0.5 * lighting.mapSize * (1 + right / lighting.extent);
             row = 0.5 * lighting.mapSize * (1 + down / lighting.extent);
             inside = std::max(std::abs(right), std::abs(up)) < lighting.extent;
+            place = {right, down, lightDistance};
             if (lighting.kind != NACRE_LIGHT_DIRECTIONAL) {
-                const double squared = right * right + up * up + lightDistance * lightDistance;
-                irradiance = 1e6 * lightDistance / (squared * std::sqrt(squared));
+                irradiance = 1e6 / dot(place, place);
             }
         }
-        double column, row; // texels
+        /// Of the surface under a texel, from the plane's point: two axes across the light, the third towards it.
+        Vector3<double> inLightFrame(const Lighting& lighting, int x, int y, double thickness) const {
+            const double texel = 2 * lighting.extent / lighting.mapSize;
+            const Vector3<double> onPlane{texel * (x + 0.5) - lighting.extent, texel * (y + 0.5) - lighting.extent,
+                                          lightDistance};
+            const bool isDirectional = lighting.kind == NACRE_LIGHT_DIRECTIONAL;
+            const Vector3<double> ray = isDirectional ? Vector3<double>{0, 0, 1} : normalized(onPlane);
+            return turned(lighting, onPlane - thickness * ray - place);
+        }
+        Vector3<double> normalInLightFrame(const Lighting& lighting) const { return turned(lighting, {0, 0, 1}); }
+        Vector3<double> turned(const Lighting& lighting, const Vector3<double>& v) const {
+            const bool isDirectional = lighting.kind == NACRE_LIGHT_DIRECTIONAL;
+            const Vector3<double> toLight = isDirectional ? Vector3<double>{0, 0, -1} : -1 * normalized(place);
+            const Vector3<double> first = normalized(cross(Vector3<double>{0, 1, 0}, toLight));
+            return {dot(v, first), dot(v, cross(toLight, first)), dot(v, toLight)};
+        }
+        double column, row;    // texels
+        Vector3<double> place; // from the light, in the map's axes
         bool inside;
-        double irradiance = 1;
+        double irradiance = 1; // on a surface that faces the light
     };
 
-    static double tapSum(const Profile& profile, int channel, const Body& body, const Lighting& lighting,
-                         const Point& point) {
+    /// The transmittance over the points of the lit surface (effect/transmit/entry.glsl), for light of 1 on a surface
+    /// that faces it.
+    static double entrySum(const Profile& profile, int channel, const Body& body, const Lighting& lighting,
+                           const Point& point) {
+        const double texel = 2 * lighting.extent / lighting.mapSize;
+        double wanted = 0.5 * profile.quantileRadius(0.75) / texel;
+        if (lighting.kind != NACRE_LIGHT_DIRECTIONAL) {
+            wanted = std::exp2(std::floor(std::log2(wanted) + 0.5));
+        }
         const double radius = lighting.filterRadius == 0 ? 2 : lighting.filterRadius;
-        const Taps columns(point.column, radius, lighting.mapSize);
-        const Taps rows(point.row, radius, lighting.mapSize);
+        const double spacing = std::max({0.5 * radius, 0.5, std::min(wanted, 0.25 * lighting.mapSize)});
+        const Taps columns(point.column, spacing, lighting.mapSize);
+        const Taps rows(point.row, spacing, lighting.mapSize);
+        const double reach = profile.quantileRadius(1 - 1e-4);
+        std::vector<Vector3<double>> points;
+        std::vector<double> weights;
+        for (int i = 0; i < 16; ++i) {
+            const int column = columns.texels[i % 4], row = rows.texels[i / 4];
+            points.push_back(point.inLightFrame(lighting, column, row, body(column, row)));
+            const bool counts = lengthOf(points.back()) <= reach + 3 * spacing * texel;
+            weights.push_back(counts ? columns.weights[i % 4] * rows.weights[i / 4] : 0);
+        }
+        const Plane plane(points, weights);
+        const double across = std::abs(plane.height) * plane.cosine();
+        const Vector3<double> normal = point.normalInLightFrame(lighting);
+        const double opposite = plane.cosine() * (plane.slopeX * normal[0] + plane.slopeY * normal[1] - normal[2]);
+        const double share = opposite > 0 ? 0.5 + 0.5 * opposite : 0.5 * (1 + opposite) * (1 + opposite);
         double sum = 0;
         for (int i = 0; i < 16; ++i) {
-            const double thickness = std::max(body(columns.texels[i % 4], rows.texels[i / 4]), 0.0);
-            sum += columns.weights[i % 4] * rows.weights[i / 4] * profile.slabTransmittance(channel, thickness);
+            if (weights[i] > 0) {
+                const double excess = lengthOf(points[i]) - lengthOf(plane.under(points[i]));
+                sum += weights[i] * profile.slabTransmittance(channel, std::max(across + excess, 0.0));
+            }
         }
-        return sum;
+        return sum * plane.cosine() * share;
     }
 
     static NacreLight light(const Lighting& lighting) {
@@ -198,13 +289,13 @@ private:
     }
 };
 
-TEST_F(TransmitFilterTest, TwoThicknessesAreExactAtAnyShares) {
+TEST_F(TransmitFilterTest, TwoThicknessesAreCloseAtAnyShares) {
     for (const Material& material : {skin(), marble(), burley()}) {
         SCOPED_TRACE(material.name);
         const Error silhouette = error(material, [](int x, int y) { return 2 * x + y < 768 ? 0.0 : 2.5; });
-        EXPECT_LT(silhouette.largest, 1e-3);
+        EXPECT_LT(silhouette.largest, 0.01);
         const Error mixture = error(material, [](int x, int y) { return noise(x, y) < 0.3 ? 0.2 : 3.0; });
-        EXPECT_LT(mixture.largest, 1e-3);
+        EXPECT_LT(mixture.largest, 0.02);
     }
 }
 
@@ -215,7 +306,7 @@ TEST_F(TransmitFilterTest, TapsStayInTheMapAtAnyRadius) {
                 SCOPED_TRACE(testing::Message()
                              << "light kind " << kind << ", side " << side << ", radius " << filterRadius);
                 const Body body = [](int x, int y) { return noise(x, y) < 0.4 ? 0.2 : 3.0; };
-                EXPECT_LT(error(marble(), body, bordered(kind, side, filterRadius)).largest, 1e-3);
+                EXPECT_LT(error(marble(), body, bordered(kind, side, filterRadius)).largest, 6e-3);
             }
         }
     }

@@ -1,0 +1,168 @@
+// Where a light enters a body, and what comes through to the receiver. The texels of a shadow map are points of the lit
+// surface; 4x4 of them, as far apart as the material's profile is wide, say how the surface lies and where it ends
+// (docs/theory.md, "Light that comes through"). Needs `parameters`, `tables` and transmittance.glsl.
+
+// [1] Distance between points of the lit surface, over the radius outside of which a quarter of the light leaves. Wider
+// tells less about small bodies, narrower less about where a body ends.
+const float entrySpacing = 0.5;
+// [1] How many texels and spacings of points a body may be thicker than twice its authored thickness.
+const float bodyTexels = 4.0;
+const float bodySpacings = 1.0;
+// [mm] Thickness that nothing shines through.
+const float opaque = 1e9;
+
+// Axes in which points are measured, mm from the receiver: two across the light, the third towards it.
+struct EntryFrame {
+    vec2 stepX, stepY; // across the light, from one texel of the map to the next
+    vec3 normal;       // the receiver's
+    vec2 taper;        // how w of the map changes along the steps, a share of it
+    vec2 moved;        // across the light, from the receiver to where it falls in the map
+    float depth;       // linear depth of the receiver
+    float curvature;   // 1/mm, of surfaces of one depth; 0 for directional lights
+};
+
+// 4x4 points of the lit surface, their distance from the receiver, and how much they count: 0 where they are no entry.
+struct LitPoints {
+    mat4 x, y, z, distance, weight;
+    float shadowed; // [0, 1] share of them that lie on another body, which throws a shadow
+};
+
+// The plane through them: z = height + slope · (x, y).
+struct EntryPlane {
+    vec2 slope;
+    float height;
+    float deviation; // mm, of the points from it and of it from the receiver, root mean square
+    float cosine;    // between its normal and the light
+    float opposite;  // [-1, 1] cosine between its normal and the receiver's, turned round
+};
+
+EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec3 toLight) {
+    vec3 gradientX = point.projection.x.xyz - point.texel.x * point.projection.w.xyz; // of texel · w
+    vec3 gradientY = point.projection.y.xyz - point.texel.y * point.projection.w.xyz;
+    vec3 alongX = cross(gradientY, toLight);
+    vec3 alongY = cross(toLight, gradientX);
+    float scale = point.w * view.mmPerUnit / dot(gradientX, alongX);
+    vec3 axisX = normalize(alongX);
+    vec3 axisY = cross(toLight, axisX);
+    bool isDirectional = light.kind == lightDirectional;
+    EntryFrame frame;
+    frame.stepX = vec2(scale * length(alongX), 0.0);
+    frame.stepY = scale * vec2(dot(alongY, axisX), dot(alongY, axisY));
+    frame.taper = vec2(dot(point.projection.w.xyz, alongX), dot(point.projection.w.xyz, alongY)) / dot(gradientX, alongX);
+    frame.normal = vec3(dot(normal, axisX), dot(normal, axisY), dot(normal, toLight));
+    frame.moved = -point.moved * view.mmPerUnit * frame.normal.xy;
+    vec3 offset = (point.offset + normal * point.moved) * view.mmPerUnit;
+    frame.depth = isDirectional ? dot(offset, light.direction.xyz) : length(offset);
+    frame.curvature = isDirectional ? 0.0 : 1.0 / frame.depth;
+    return frame;
+}
+
+// Texels between the points on an axis of the map. Where a texel's size changes over the map it keeps to powers of two, so
+// that the points of neighbours are the same.
+float entrySpacingOf(LightParameters light, uint material, float texelSize) {
+    float wanted = entrySpacing * tables[material].spread / (texelSize * view.mmPerUnit);
+    if (light.kind != lightDirectional) {
+        wanted = exp2(floor(log2(max(wanted, 1e-6)) + 0.5));
+    }
+    float least = max(0.5 * parameters.filterRadius, 0.5);
+    bool isWide = !hasFlag(flagThesisTransmittance);
+    return isWide ? max(least, min(wanted, 0.25 * min(light.shadowSize.x, light.shadowSize.y))) : least;
+}
+
+// Texels of the 4 taps on an axis, and their weights: a tent, so that points come and go without weight. What lies outside
+// of the map is not known, and has none.
+void taps(float coordinate, float spacing, float last, out vec4 texels, out vec4 weights) {
+    const vec4 tap = vec4(-1.0, 0.0, 1.0, 2.0);
+    float base = floor(coordinate / spacing - 0.5);
+    float fraction = coordinate / spacing - 0.5 - base;
+    texels = floor((base + tap + 0.5) * spacing);
+    vec4 tent = 0.5 - 0.25 * abs(tap - fraction);
+    weights = tent * step(0.0, texels) * step(texels, vec4(last));
+    float sum = dot(weights, vec4(1.0));
+    weights = sum > 0.0 ? weights / sum : tent;
+    texels = clamp(texels, 0.0, last);
+}
+
+// `columns`, `rows`: texels from where the receiver falls in the map. `farthest`: mm, of the receiver from its entry.
+// `inmost`: mm, how far beneath the receiver's plane its own body reaches. A depth below 0 is a body's back.
+LitPoints litPoints(EntryFrame frame, mat4 depths, vec4 columns, vec4 rows, vec4 columnWeights, vec4 rowWeights,
+                    float farthest, float inmost) {
+    LitPoints points;
+    points.shadowed = 0.0;
+    for (int row = 0; row < 4; ++row) {
+        vec4 perspective = 1.0 / max(1.0 - columns * frame.taper.x - rows[row] * frame.taper.y, 0.01);
+        vec4 x = (columns * frame.stepX.x + rows[row] * frame.stepY.x) * perspective;
+        vec4 y = rows[row] * frame.stepY.y * perspective;
+        vec4 slant = inversesqrt(1.0 + frame.curvature * frame.curvature * (x * x + y * y));
+        vec4 depth = min(abs(depths[row]), frame.depth + 2.0 * farthest);
+        vec4 share = frame.curvature > 0.0 ? frame.curvature * depth * slant : vec4(1.0); // a lamp's rays part
+        vec4 z = frame.depth - depth * slant;
+        x = x * share + frame.moved.x;
+        y = y * share + frame.moved.y;
+        vec4 beneath = -(x * frame.normal.x + y * frame.normal.y + z * frame.normal.z);
+        points.x[row] = x;
+        points.y[row] = y;
+        points.z[row] = z;
+        points.distance[row] = sqrt(x * x + y * y + z * z);
+        vec4 isFront = step(0.0, depths[row]) * (1.0 - step(nothingThere, depths[row]));
+        vec4 isOther = 1.0 - step(beneath, vec4(inmost));
+        vec4 weight = columnWeights * rowWeights[row];
+        points.weight[row] = weight * isFront * step(points.distance[row], vec4(farthest)) * (1.0 - isOther);
+        points.shadowed += dot(weight, isOther);
+    }
+    return points;
+}
+
+// By least squares. Where the points lie on a line or are few, it faces the light as far as they do not tell.
+EntryPlane entryPlane(LitPoints points, vec3 normal) {
+    float sum = 0.0;
+    vec3 first = vec3(0.0);  // moments: x, y, z
+    vec3 square = vec3(0.0); // xx, xy, yy
+    vec3 height = vec3(0.0); // xz, yz, zz
+    for (int row = 0; row < 4; ++row) {
+        vec4 x = points.x[row], y = points.y[row], z = points.z[row];
+        vec4 weight = points.weight[row];
+        vec4 weightX = weight * x, weightY = weight * y;
+        sum += dot(weight, vec4(1.0));
+        first += vec3(dot(weightX, vec4(1.0)), dot(weightY, vec4(1.0)), dot(weight, z));
+        square += vec3(dot(weightX, x), dot(weightX, y), dot(weightY, y));
+        height += vec3(dot(weightX, z), dot(weightY, z), dot(weight * z, z));
+    }
+    float scale = 1.0 / max(sum, 1e-6);
+    vec3 mean = scale * first;
+    float rounding = 1e-5 * scale * (square.x + square.z);
+    square = scale * square - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
+    height = scale * height - mean.z * mean;
+    float least = 1e-3 * max(square.x + square.z, 0.0) + rounding + 1e-12;
+    square.xz = max(square.xz, 0.0) + least;
+    float determinant = max(square.x * square.z - square.y * square.y, least * least);
+    EntryPlane plane;
+    plane.slope = vec2(height.x * square.z - height.y * square.y, height.y * square.x - height.x * square.y) / determinant;
+    plane.height = mean.z - dot(plane.slope, mean.xy);
+    plane.cosine = inversesqrt(1.0 + dot(plane.slope, plane.slope));
+    plane.opposite = plane.cosine * (dot(plane.slope, normal.xy) - normal.z);
+    float off = max(height.z - dot(plane.slope, height.xy), 0.0);
+    float across = plane.height * plane.cosine;
+    plane.deviation = sum > 0.0 ? sqrt(off + across * across) : opaque;
+    return plane;
+}
+
+// Arguments of the transmittance over the points: how far the receiver is from the plane, and how much nearer or farther
+// than the plane each point is.
+mat4 entryThickness(LitPoints points, EntryPlane plane, float across) {
+    mat4 thickness;
+    for (int row = 0; row < 4; ++row) {
+        vec4 x = points.x[row], y = points.y[row];
+        vec4 z = plane.height + plane.slope.x * x + plane.slope.y * y;
+        vec4 excess = points.distance[row] - sqrt(x * x + y * y + z * z);
+        thickness[row] = mix(vec4(opaque), max(across + excess, 0.0), step(vec4(1e-9), points.weight[row]));
+    }
+    return thickness;
+}
+
+// [0, 1] The share of an entry plane that is not the receiver's own side: all where they face each other, half at a
+// right-angled edge, none where they are one surface.
+float entryShare(float opposite) {
+    float share = 0.5 + 0.5 * opposite;
+    return opposite > 0.0 ? share : 2.0 * share * share;
+}
