@@ -84,8 +84,8 @@ void taps(float coordinate, float spacing, float last, out vec4 texels, out vec4
 }
 
 // `columns`, `rows`: texels from where the receiver falls in the map. `farthest`: mm, of the receiver from its entry.
-// `inmost`: mm, how far beneath the receiver's plane its own body reaches. A depth below 0 is a body's back.
-LitPoints litPoints(EntryFrame frame, mat4 depths, vec4 columns, vec4 rows, vec4 columnWeights, vec4 rowWeights,
+// `inmost`: mm, how far beneath the receiver's plane its own body reaches.
+LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, vec4 columnWeights, vec4 rowWeights,
                     float farthest, float inmost) {
     LitPoints points;
     points.shadowed = 0.0;
@@ -94,7 +94,7 @@ LitPoints litPoints(EntryFrame frame, mat4 depths, vec4 columns, vec4 rows, vec4
         vec4 x = (columns * frame.stepX.x + rows[row] * frame.stepY.x) * perspective;
         vec4 y = rows[row] * frame.stepY.y * perspective;
         vec4 slant = inversesqrt(1.0 + frame.curvature * frame.curvature * (x * x + y * y));
-        vec4 depth = min(abs(depths[row]), frame.depth + 2.0 * farthest);
+        vec4 depth = min(map.depth[row], frame.depth + 2.0 * farthest);
         vec4 share = frame.curvature > 0.0 ? frame.curvature * depth * slant : vec4(1.0); // a lamp's rays part
         vec4 z = frame.depth - depth * slant;
         x = x * share + frame.moved.x;
@@ -104,10 +104,9 @@ LitPoints litPoints(EntryFrame frame, mat4 depths, vec4 columns, vec4 rows, vec4
         points.y[row] = y;
         points.z[row] = z;
         points.distance[row] = sqrt(x * x + y * y + z * z);
-        vec4 isFront = step(0.0, depths[row]) * (1.0 - step(nothingThere, depths[row]));
         vec4 isOther = 1.0 - step(beneath, vec4(inmost));
         vec4 weight = columnWeights * rowWeights[row];
-        points.weight[row] = weight * isFront * step(points.distance[row], vec4(farthest)) * (1.0 - isOther);
+        points.weight[row] = weight * map.isEntry[row] * step(points.distance[row], vec4(farthest)) * (1.0 - isOther);
         points.shadowed += dot(weight, isOther);
     }
     return points;

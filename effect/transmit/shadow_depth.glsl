@@ -52,9 +52,13 @@ mat4 decodedDepths(LightParameters light, mat4 stored, vec4 columns, vec4 rows) 
     return depths;
 }
 
-// Depth along the light of 4x4 texels of its shadow map, mm, below 0 where a map of linear depth says that a body's back is
-// there. A matrix's column is a row of the map.
-mat4 depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint layer) {
+// What 4x4 texels of a shadow map say. A matrix's column is a row of the map.
+struct MapDepths {
+    mat4 depth;   // mm, along the light
+    mat4 isEntry; // 0 or 1: whether light can enter there. Not where nothing is, nor at a body's back.
+};
+
+MapDepths depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint layer) {
     ivec4 x = ivec4(columns);
     ivec4 y = ivec4(rows);
     if (generalLights) {
@@ -62,15 +66,21 @@ mat4 depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint layer
         y += light.shadowOrigin.y;
     }
     mat4 stored = storedDepths(light.shadowMap, x, y, layer);
-    if (generalLights && (light.shadowFlags & shadowHardwareDepth) != 0u) {
-        return decodedDepths(light, stored, columns, rows);
+    MapDepths result;
+    bool isHardware = generalLights && (light.shadowFlags & shadowHardwareDepth) != 0u;
+    if (isHardware) {
+        result.depth = decodedDepths(light, stored, columns, rows);
     }
     float range = light.direction.w * view.mmPerUnit;
-    mat4 depths;
     for (int row = 0; row < 4; ++row) {
-        depths[row] = mix(stored[row] * range, vec4(nothingThere), step(1.0, stored[row]));
+        if (isHardware) {
+            result.isEntry[row] = 1.0 - step(nothingThere, result.depth[row]);
+        } else { // below 0: a body's back; 1: nothing
+            result.depth[row] = abs(stored[row]) * range;
+            result.isEntry[row] = step(0.0, stored[row]) * (1.0 - step(1.0, stored[row]));
+        }
     }
-    return depths;
+    return result;
 }
 
 // Whether a light's map has the faces that look away from the light, the receiver's own among them.

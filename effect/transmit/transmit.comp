@@ -185,18 +185,18 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     float spacing = entrySpacingOf(light, receiver.material, point.texelSize);
     taps(point.texel.x, spacing, light.shadowSize.x - 1.0, columns, columnWeights);
     taps(point.texel.y, spacing, light.shadowSize.y - 1.0, rows, rowWeights);
-    mat4 depths = depthsAlongLight(light, columns, rows, point.projection.layer);
+    MapDepths map = depthsAlongLight(light, columns, rows, point.projection.layer);
     float texel = point.texelSize * view.mmPerUnit;
     float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
     bool isAuthored = receiver.authored > 0.0;
     bool isBounded = isAuthored;
     if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
-        depths -= receiver.authored;
+        map.depth -= receiver.authored;
         isBounded = false;
     }
     float inmost = isBounded ? 2.0 * receiver.authored + (bodyTexels + bodySpacings * spacing) * texel : opaque;
     EntryFrame frame = entryFrame(light, point, receiver.normal, toLight);
-    LitPoints points = litPoints(frame, depths, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
+    LitPoints points = litPoints(frame, map, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
                                  rowWeights, farthest, inmost);
     if (hasFlag(flagThesisTransmittance)) {
         return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
@@ -209,7 +209,9 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     float certainty = certaintyOf(receiver, point.texelSize, plane.deviation);
     float authored = isAuthored ? cosine * (1.0 - points.shadowed) : 0.0;
     vec3 otherwise = authored * transmittance(receiver.material, receiver.authored);
-    return vec4(mix(otherwise, through, certainty), min(max(plane.height, 0.0), most));
+    bool hasEntry = plane.deviation < opaque;
+    float along = hasEntry ? min(max(plane.height, 0.0), most) : authored > 0.0 ? receiver.authored : -1.0;
+    return vec4(mix(otherwise, through, certainty), along);
 }
 
 #include "shadow_cascades.glsl"

@@ -227,13 +227,13 @@ TEST_F(ShadowMapsTest, HardwareDepthOfEveryFormat) {
 }
 
 TEST_F(ShadowMapsTest, BallHasItsChords) {
-    constexpr double radius = 24;
+    constexpr double radius = 5;
     constexpr std::uint32_t size = 512;
     NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
-    setMatrix(source.shadowClipFromWorld, orthographicReversed, 30);
+    setMatrix(source.shadowClipFromWorld, orthographicReversed, 15);
     std::vector<float> values;
     for (std::uint32_t i = 0; i < size * size; ++i) {
-        const double u = (2 * (i % size + 0.5) / size - 1) * 30, v = (2 * (i / size + 0.5) / size - 1) * 30;
+        const double u = (2 * (i % size + 0.5) / size - 1) * 15, v = (2 * (i / size + 0.5) / size - 1) * 15;
         const double height = radius * radius - u * u - v * v;
         values.push_back(
             static_cast<float>(height > 0 ? orthographicReversed.at(lightDepth - 530 - std::sqrt(height)) : 0));
@@ -249,7 +249,7 @@ TEST_F(ShadowMapsTest, BallHasItsChords) {
     const Result result = transmit(ball, source, maps);
     for (std::uint32_t i = 0; i < imageSize * imageSize; ++i) {
         const double r = std::hypot(x(i % imageSize), x(i / imageSize));
-        if (r < 0.7 * radius) {
+        if (r < 0.5 * radius) { // further out the entry's plane cuts the corner
             const double chord = 2 * std::sqrt(radius * radius - r * r);
             ASSERT_NEAR(result.thickness[i], chord, 0.02 * chord) << r;
         }
@@ -330,7 +330,8 @@ TEST_F(ShadowMapsTest, CascadesShowNoSeam) {
     NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
     source.cascades = cascades;
     source.cascadeCount = 4;
-    const double light = makeProfile(marble())->slabTransmittance(0, thickness) * std::sqrt(0.5);
+    // Across the slab it is thinner than along the light, which reaches it under 45 degrees.
+    const double light = makeProfile(marble())->slabTransmittance(0, thickness * std::sqrt(0.5)) * std::sqrt(0.5);
     GpuImage map;
     for (const NacreCascadeChoice choice : {NACRE_CASCADE_BY_VIEW_DEPTH, NACRE_CASCADE_BY_MAP}) {
         source.cascadeChoice = choice;
@@ -448,6 +449,7 @@ TEST_F(ShadowMapsTest, LightFallsOffAsItSays) {
             "range");
     }
     source.kind = NACRE_LIGHT_POINT;
+    source.outerConeAngle = source.innerConeAngle = 0;
     source.range = 0;
     const float attenuations[][3] = {{1, 0, 0}, {1, 0.5f, 2}, {0, 2, 0}};
     for (const float(&a)[3] : attenuations) {
