@@ -67,7 +67,8 @@ struct Pass {
     bool hasSeveralShadowMaps = false;
     /// The same with the constant albedoOrStrength, for calls with such an image or a material of strength below 1.
     bool hasAlbedoOrStrength = false;
-    /// The same with the constant generalLights, for calls with a light that asks for more than a linear map of its own.
+    /// The same with the constant generalLights, for calls with a light that asks for more than a linear map of its
+    /// own.
     bool hasGeneralLights = false;
 };
 

@@ -16,7 +16,7 @@ static const Technique thesisTechnique{};
 #endif
 
 const std::array<const Technique*, techniqueCount> techniques{
-    &separableTechnique, &bruteTechnique,        &bankTechnique,    &burleyTechnique,
+    &separableTechnique, &bruteTechnique,        &bankTechnique,     &burleyTechnique,
     &thesisTechnique,    &bankSurfacesTechnique, &transmitTechnique, &composeTechnique};
 
 IntermediateSet Technique::uses() const {

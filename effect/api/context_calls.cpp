@@ -64,12 +64,13 @@ void openDevice(Device& device, const NacreContextInfo& info) {
         fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device lacks the feature shaderStorageImageWriteWithoutFormat");
     }
     if (info.enabledFeatures && !info.enabledFeatures->shaderStorageImageWriteWithoutFormat) {
-        fail(NACRE_ERROR_UNSUPPORTED_DEVICE,
-             "NacreContextInfo::enabledFeatures lacks shaderStorageImageWriteWithoutFormat, which the device has: enable it "
-             "when the device is created (nacreGetRequirements)");
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "NacreContextInfo::enabledFeatures lacks "
+                                             "shaderStorageImageWriteWithoutFormat, which the device has: enable it "
+                                             "when the device is created (nacreGetRequirements)");
     }
     if (!device.vk.GetDeviceProcAddr(info.device, "vkCreateRenderPass2")) {
-        fail(NACRE_ERROR_UNSUPPORTED_DEVICE, "the device does not know vkCreateRenderPass2 of Vulkan 1.2: "
+        fail(NACRE_ERROR_UNSUPPORTED_DEVICE,
+             "the device does not know vkCreateRenderPass2 of Vulkan 1.2: "
              "VkApplicationInfo::apiVersion of NacreContextInfo::instance must be at least VK_API_VERSION_1_2");
     }
     if (info.shaderFloat16 && !features12.shaderFloat16) {
@@ -115,8 +116,8 @@ void setEncodings(Context& context, const NacreContextInfo& info) {
              ", must be in [0, 15]");
     }
     if (info.normalEncoding != NACRE_NORMAL_XYZ && info.normalEncoding != NACRE_NORMAL_OCTAHEDRAL) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::normalEncoding is ", static_cast<int>(info.normalEncoding),
-             ", must be a NacreNormalEncoding");
+        fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::normalEncoding is ",
+             static_cast<int>(info.normalEncoding), ", must be a NacreNormalEncoding");
     }
     if (info.normalSpace != NACRE_NORMAL_WORLD && info.normalSpace != NACRE_NORMAL_VIEW) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreContextInfo::normalSpace is ", static_cast<int>(info.normalSpace),
@@ -153,9 +154,9 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
     context.maxExtent = info.maxExtent;
     context.intermediates = createIntermediates(
         context.device, context.scatter.intermediates | context.transmit.intermediates, info.maxExtent);
-    context.materials.emplace(context.device, materials, frames, context.enabled,
-                              IdBits{info.materialIdMask == 0 ? NACRE_MAX_MATERIALS : info.materialIdMask,
-                                     info.materialIdShift});
+    context.materials.emplace(
+        context.device, materials, frames, context.enabled,
+        IdBits{info.materialIdMask == 0 ? NACRE_MAX_MATERIALS : info.materialIdMask, info.materialIdShift});
     context.uniforms = createUniforms(context, frames, records);
 }
 

@@ -75,7 +75,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, call.set, area.extent, info.timestamps,
-                  techniques[technique]->uses() | idsIntermediate(context), materials.slotCount, variantOf(given, materials), baked});
+                  techniques[technique]->uses() | idsIntermediate(context), materials.slotCount,
+                  variantOf(given, materials), baked});
 }
 
 } // namespace

@@ -15,16 +15,22 @@ constexpr VkFormat depthFormats[] = {
     VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_D16_UNORM_S8_UINT,
     VK_FORMAT_R32_SFLOAT,        VK_FORMAT_R16_SFLOAT,         VK_FORMAT_R16_UNORM};
 constexpr VkFormat materialIdFormats[] = {
-    VK_FORMAT_R8_UINT,           VK_FORMAT_R16_UINT,          VK_FORMAT_R8G8_UINT,
-    VK_FORMAT_R8G8B8A8_UINT,     VK_FORMAT_R16G16_UINT,       VK_FORMAT_R16G16B16A16_UINT,
-    VK_FORMAT_S8_UINT,           VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT,
+    VK_FORMAT_R8_UINT,          VK_FORMAT_R16_UINT,          VK_FORMAT_R8G8_UINT,
+    VK_FORMAT_R8G8B8A8_UINT,    VK_FORMAT_R16G16_UINT,       VK_FORMAT_R16G16B16A16_UINT,
+    VK_FORMAT_S8_UINT,          VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT,
     VK_FORMAT_D16_UNORM_S8_UINT};
-constexpr VkFormat normalFormats[] = {VK_FORMAT_R16G16B16A16_SFLOAT,     VK_FORMAT_R32G32B32A32_SFLOAT,
-                                      VK_FORMAT_R16G16B16A16_SNORM,      VK_FORMAT_R16G16B16A16_UNORM,
-                                      VK_FORMAT_R8G8B8A8_SNORM,          VK_FORMAT_R8G8B8A8_UNORM,
-                                      VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_R16G16_SFLOAT,
-                                      VK_FORMAT_R16G16_SNORM,             VK_FORMAT_R16G16_UNORM,
-                                      VK_FORMAT_R8G8_SNORM,               VK_FORMAT_R8G8_UNORM,
+constexpr VkFormat normalFormats[] = {VK_FORMAT_R16G16B16A16_SFLOAT,
+                                      VK_FORMAT_R32G32B32A32_SFLOAT,
+                                      VK_FORMAT_R16G16B16A16_SNORM,
+                                      VK_FORMAT_R16G16B16A16_UNORM,
+                                      VK_FORMAT_R8G8B8A8_SNORM,
+                                      VK_FORMAT_R8G8B8A8_UNORM,
+                                      VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+                                      VK_FORMAT_R16G16_SFLOAT,
+                                      VK_FORMAT_R16G16_SNORM,
+                                      VK_FORMAT_R16G16_UNORM,
+                                      VK_FORMAT_R8G8_SNORM,
+                                      VK_FORMAT_R8G8_UNORM,
                                       VK_FORMAT_R32G32_SFLOAT};
 constexpr VkFormat strengthFormats[] = {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_UNORM, VK_FORMAT_R16_SFLOAT,
                                         VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
@@ -34,9 +40,9 @@ constexpr VkFormat albedoFormats[] = {VK_FORMAT_R8G8B8A8_UNORM,           VK_FOR
                                       VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_R16G16B16A16_SFLOAT,
                                       VK_FORMAT_R32G32B32A32_SFLOAT};
 constexpr VkFormat shadowMapFormats[] = {
-    VK_FORMAT_R32_SFLOAT, VK_FORMAT_R16_UNORM,           VK_FORMAT_R16_SFLOAT,        VK_FORMAT_D32_SFLOAT,
-    VK_FORMAT_D16_UNORM,  VK_FORMAT_X8_D24_UNORM_PACK32, VK_FORMAT_D16_UNORM_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT,
-    VK_FORMAT_D32_SFLOAT_S8_UINT};
+    VK_FORMAT_R32_SFLOAT,        VK_FORMAT_R16_UNORM,         VK_FORMAT_R16_SFLOAT,
+    VK_FORMAT_D32_SFLOAT,        VK_FORMAT_D16_UNORM,         VK_FORMAT_X8_D24_UNORM_PACK32,
+    VK_FORMAT_D16_UNORM_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT};
 constexpr VkFormat thicknessOutFormats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R16_SFLOAT};
 
 template <std::size_t count>
@@ -167,9 +173,10 @@ VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExte
         field = info + "::view.scissor";
         checkArea(view.scissor, field);
         if (!contains(area, view.scissor)) {
-            fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", view.scissor.extent.width, "x", view.scissor.extent.height,
-                 " at ", view.scissor.offset.x, ",", view.scissor.offset.y, ", must lie within the render area, ",
-                 area.extent.width, "x", area.extent.height, " at ", area.offset.x, ",", area.offset.y);
+            fail(NACRE_ERROR_INVALID_ARGUMENT, field, " is ", view.scissor.extent.width, "x",
+                 view.scissor.extent.height, " at ", view.scissor.offset.x, ",", view.scissor.offset.y,
+                 ", must lie within the render area, ", area.extent.width, "x", area.extent.height, " at ",
+                 area.offset.x, ",", area.offset.y);
         }
         area = view.scissor;
     }

@@ -27,8 +27,8 @@ void checkFinite(std::span<const float> values, const FieldName& field);
 
 /// What the projection maps to: `view.renderArea`, or all of `extent`.
 VkRect2D viewport(const NacreView& view, VkExtent2D extent);
-/// The part of the images that is worked on: the viewport, or `view.scissor` in it. Throws when it is empty, or larger than
-/// maxExtent.
+/// The part of the images that is worked on: the viewport, or `view.scissor` in it. Throws when it is empty, or larger
+/// than maxExtent.
 VkRect2D renderArea(const NacreView& view, VkExtent2D extent, VkExtent2D maxExtent, const FieldName& info);
 
 /// Throws when an image of this extent does not cover the area.

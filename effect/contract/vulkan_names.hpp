@@ -6,7 +6,8 @@
 
 namespace nacre::effect {
 
-/// Written as the enumerator, or as "VkFormat 1000156000" where it is not among those that images here may have or often have.
+/// Written as the enumerator, or as "VkFormat 1000156000" where it is not among those that images here may have or
+/// often have.
 struct FormatName {
     VkFormat value;
 };

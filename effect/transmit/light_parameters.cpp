@@ -61,8 +61,10 @@ void checkRectangle(const VkRect2D& rectangle, VkExtent2D extent, const FieldNam
 
 void checkLinear(const MapUse& map, VkFormat format, const FieldName& field, const FieldName& range) {
     if (isDepthFormat(format)) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".shadowDepthEncoding is NACRE_DEPTH_LINEAR, but its map, "
-             "NacreTransmitInfo::shadowMaps[", map.shadowMap, "], has the depth format ", FormatName{format},
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field,
+             ".shadowDepthEncoding is NACRE_DEPTH_LINEAR, but its map, "
+             "NacreTransmitInfo::shadowMaps[",
+             map.shadowMap, "], has the depth format ", FormatName{format},
              ", whose values are a depth buffer's; must be NACRE_DEPTH_HARDWARE");
     }
     if (!std::isfinite(map.range) || map.range <= 0) {
@@ -74,10 +76,10 @@ void checkHardware(const NacreLight& light, const MapUse& map, const NacreTransm
     checkFinite(map.clipFromWorld, matrix);
     const bool isCube = light.kind == NACRE_LIGHT_POINT;
     const VkExtent2D size = sizeOf(map, info);
-    if (isCube ? !cubeDecodingOf(map.clipFromWorld, size).isValid
-               : !decodingOf(map.clipFromWorld, {}, size).isValid) {
+    if (isCube ? !cubeDecodingOf(map.clipFromWorld, size).isValid : !decodingOf(map.clipFromWorld, {}, size).isValid) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, matrix, " has no inverse",
-             isCube ? ", must be the perspective projection of a cube's face" : ", must be the matrix the map was drawn with");
+             isCube ? ", must be the perspective projection of a cube's face"
+                    : ", must be the matrix the map was drawn with");
     }
 }
 
@@ -128,8 +130,8 @@ void checkCascades(const NacreLight& light, const NacreTransmitInfo& info, const
 
 void checkShadow(const NacreLight& light, const NacreTransmitInfo& info, const FieldName& field) {
     if (light.shadowDepthEncoding != NACRE_DEPTH_LINEAR && light.shadowDepthEncoding != NACRE_DEPTH_HARDWARE) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".shadowDepthEncoding is ", static_cast<int>(light.shadowDepthEncoding),
-             ", must be a NacreDepthEncoding");
+        fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".shadowDepthEncoding is ",
+             static_cast<int>(light.shadowDepthEncoding), ", must be a NacreDepthEncoding");
     }
     if (light.cascadeChoice != NACRE_CASCADE_BY_MAP && light.cascadeChoice != NACRE_CASCADE_BY_VIEW_DEPTH) {
         fail(NACRE_ERROR_INVALID_ARGUMENT, field, ".cascadeChoice is ", static_cast<int>(light.cascadeChoice),

@@ -71,8 +71,10 @@ void MaterialTable::clear() {
 void MaterialTable::set(std::uint32_t firstId, std::span<const NacreMaterial> materials) {
     for (std::uint32_t id = firstId; id < firstId + materials.size(); ++id) {
         if ((id << idBits_.shift & ~idBits_.mask) != 0) {
-            fail(NACRE_ERROR_INVALID_ARGUMENT, "firstId is ", firstId, " and count ", materials.size(), ": no pixel can have "
-                 "id ", id, ", NacreContextInfo::materialIdMask is ", idBits_.mask, " and materialIdShift ", idBits_.shift);
+            fail(NACRE_ERROR_INVALID_ARGUMENT, "firstId is ", firstId, " and count ", materials.size(),
+                 ": no pixel can have "
+                 "id ",
+                 id, ", NacreContextInfo::materialIdMask is ", idBits_.mask, " and materialIdShift ", idBits_.shift);
         }
     }
     const auto isNew = [](std::uint32_t slot) { return slot == 0; };

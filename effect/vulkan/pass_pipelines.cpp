@@ -63,7 +63,8 @@ Owned<VkPipeline> createPipeline(const Device& device, VkPipelineLayout layout, 
 
 namespace {
 
-/// A pass's specialization constants: those of its variant, then those of the context's encodings (encoded_inputs.glsl).
+/// A pass's specialization constants: those of its variant, then those of the context's encodings
+/// (encoded_inputs.glsl).
 struct PassConstants {
     static constexpr std::uint32_t count = 4;
     static constexpr std::uint32_t ofVariants = 2;
@@ -84,7 +85,8 @@ PassPipelines createVariants(const Context& context, VkPipelineLayout layout, co
         if ((variant & ~variantsOf(pass)) != 0) {
             continue;
         }
-        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under the first ids.
+        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under the first
+        // ids.
         const PassConstants constants(context, variant);
         const std::uint32_t first = variantsOf(pass) != 0 ? 0 : PassConstants::ofVariants;
         const VkSpecializationInfo info{PassConstants::count - first, constants.entries.data() + first,

@@ -1,6 +1,7 @@
-// A deferred renderer as engines have them, with subsurface scattering: rasterised bodies on a table, lit from behind by a sun
-// with four shadow cascades of hardware depth; a G-buffer with material ids in the stencil and octahedral normals in view
-// space; a reversed depth buffer; several frames in flight; a size that changes. What is Nacre's stands in snippets.
+// A deferred renderer as engines have them, with subsurface scattering: rasterised bodies on a table, lit from behind
+// by a sun with four shadow cascades of hardware depth; a G-buffer with material ids in the stencil and octahedral
+// normals in view space; a reversed depth buffer; several frames in flight; a size that changes. What is Nacre's stands
+// in snippets.
 //
 // Usage: deferred [picture.png [frames in flight]]
 #include "raster_device.hpp"
@@ -60,7 +61,8 @@ struct FrameBlock {
     } bodies[bodyCount];
 };
 
-/// A projection that looks along -Z, with depth 1 at the near plane and 0 infinitely far. Vulkan's clip space has y down.
+/// A projection that looks along -Z, with depth 1 at the near plane and 0 infinitely far. Vulkan's clip space has y
+/// down.
 glm::mat4 reversedPerspective(float fieldOfView, float aspect) {
     const float f = 1 / std::tan(fieldOfView / 2);
     return {{f / aspect, 0, 0, 0}, {0, -f, 0, 0}, {0, 0, 0, -1}, {0, 0, nearPlane, 0}};
@@ -89,17 +91,19 @@ glm::mat4 cascadeMatrix(const FrameBlock& frame, float from, float to) {
 FrameBlock makeFrame(VkExtent2D extent, int number) {
     FrameBlock frame{};
     const float aside = 0.002f * static_cast<float>(number);
-    frame.viewFromWorld = glm::lookAt(glm::vec3(0.01f + aside, 0.055f, 0.17f), glm::vec3(0, 0.022f, 0), glm::vec3(0, 1, 0));
+    frame.viewFromWorld =
+        glm::lookAt(glm::vec3(0.01f + aside, 0.055f, 0.17f), glm::vec3(0, 0.022f, 0), glm::vec3(0, 1, 0));
     frame.worldFromView = glm::inverse(frame.viewFromWorld);
     frame.clipFromView =
         reversedPerspective(0.7f, static_cast<float>(extent.width) / static_cast<float>(extent.height));
-    frame.lightDirection = glm::vec4(glm::normalize(glm::vec3(-0.25f, -0.45f, 0.85f)), 4.0f);
+    frame.lightDirection = glm::vec4(glm::normalize(glm::vec3(-0.25f, -0.45f, 0.85f)), 6.0f);
     frame.cascadeEnds = {0.14f, 0.2f, 0.32f, 0.8f};
     for (std::uint32_t i = 0; i < cascadeCount; ++i) {
-        frame.shadowClipFromWorld[i] = cascadeMatrix(frame, i == 0 ? nearPlane : frame.cascadeEnds[i - 1], frame.cascadeEnds[i]);
+        frame.shadowClipFromWorld[i] =
+            cascadeMatrix(frame, i == 0 ? nearPlane : frame.cascadeEnds[i - 1], frame.cascadeEnds[i]);
     }
     frame.bodies[0] = {{0, -0.1f, -0.1f, 0}, {0.6f, 0.1f, 0.6f, 0}}; // the table
-    for (int i = 1; i < int{bodyCount}; ++i) { // balls and sheets, one behind the other
+    for (int i = 1; i < int{bodyCount}; ++i) {                       // balls and sheets, one behind the other
         const bool isSheet = i % 2 == 0;
         const float x = 0.05f * static_cast<float>(i % 3 - 1);
         const float z = 0.06f - 0.045f * static_cast<float>(i);
@@ -118,7 +122,9 @@ void check(NacreResult result) {
 nacre::Context createContext(const Device& device, VkExtent2D extent, const VkPhysicalDeviceFeatures& features) {
     NacreContextInfo info{};
     info.headerVersion = NACRE_HEADER_VERSION;
-    info.messageCallback = [](NacreSeverity, const char* message, void*) { std::fprintf(stderr, "nacre: %s\n", message); };
+    info.messageCallback = [](NacreSeverity, const char* message, void*) {
+        std::fprintf(stderr, "nacre: %s\n", message);
+    };
     info.instance = device.instance;
     info.physicalDevice = device.physicalDevice;
     info.device = device.device;
@@ -203,13 +209,14 @@ Pipelines createPipelines(Device& device) {
                 {.vertex = screenVert, .fragment = addFrag, .colors = {VK_FORMAT_R8G8B8A8_SRGB}, .adds = true})};
 }
 
-/// One frame's drawing. Everything is on one queue, and images are the same in all frames: `use` orders a frame after what the
-/// one before did with them.
+/// One frame's drawing. Everything is on one queue, and images are the same in all frames: `use` orders a frame after
+/// what the one before did with them.
 class Renderer {
 public:
     explicit Renderer(std::uint32_t framesInFlight)
         // [snippet: raster-device]
-        : requirements_(requirements()), device_(requirements_.features, requirements_.features12)
+        : requirements_(requirements()),
+          device_(requirements_.features, requirements_.features12)
     // [end]
     {
         device_.createFrames(framesInFlight, sizeof(FrameBlock));
@@ -218,7 +225,8 @@ public:
         extent_ = sizes[0];
         context_ = createContext(device_, extent_, requirements_.features);
         bindImages();
-        pixels_ = device_.createBuffer(VkDeviceSize{4} * sizes[1].width * sizes[1].height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        pixels_ =
+            device_.createBuffer(VkDeviceSize{4} * sizes[1].width * sizes[1].height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     }
     ~Renderer() {
         vkDeviceWaitIdle(device_.device);
@@ -248,7 +256,8 @@ public:
         commands_ = frame.commands;
         VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
         ::check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
-        vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, device_.layout, 0, 1, &frame.set, 0, nullptr);
+        vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, device_.layout, 0, 1, &frame.set, 0,
+                                nullptr);
         drawShadows();
         drawSurfaces();
         drawLighting();
@@ -321,7 +330,8 @@ private:
 
     void drawBody(int cascade, std::uint32_t body) {
         const std::int32_t draw[] = {cascade, static_cast<std::int32_t>(body)};
-        vkCmdPushConstants(commands_, device_.layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(draw), draw);
+        vkCmdPushConstants(commands_, device_.layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                           sizeof(draw), draw);
         vkCmdDraw(commands_, verticesOfBody, 1, 0, 0);
     }
 
@@ -450,7 +460,8 @@ private:
 
     void addSubsurface() {
         use(commands_, images_.picture, colorTarget);
-        const VkRenderingAttachmentInfo colors[] = {target(images_.picture.view, colorTarget, VK_ATTACHMENT_LOAD_OP_LOAD)};
+        const VkRenderingAttachmentInfo colors[] = {
+            target(images_.picture.view, colorTarget, VK_ATTACHMENT_LOAD_OP_LOAD)};
         drawScreen(pipelines_.add, colors);
     }
 

@@ -26,7 +26,7 @@ float litShare(vec3 position, vec3 normal, float viewDepth) {
     if (cascade > 3) {
         return 1.0;
     }
-    vec4 clip = shadowClipFromWorld[cascade] * vec4(position + 0.001 * normal, 1.0);
+    vec4 clip = shadowClipFromWorld[cascade] * vec4(position + 0.001 * float(1 + 2 * cascade) * normal, 1.0);
     ivec2 size = textureSize(shadowMap, 0).xy;
     ivec2 texel = ivec2((0.5 * clip.xy + 0.5) * vec2(size));
     float lit = 0.0;

@@ -42,7 +42,8 @@ Device::Device(const VkPhysicalDeviceFeatures& features, VkPhysicalDeviceVulkan1
     features13.synchronization2 = VK_TRUE;
     features12.pNext = &features13;
     const float priority = 1;
-    VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}; // family 0 draws and computes on all desktops
+    VkDeviceQueueCreateInfo queueInfo{
+        VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}; // family 0 draws and computes on all desktops
     queueInfo.queueCount = 1;
     queueInfo.pQueuePriorities = &priority;
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features12};
@@ -127,7 +128,8 @@ Image Device::createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags 
     vkGetImageMemoryRequirements(device, result.image, &requirements);
     result.memory = allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(vkBindImageMemory(device, result.image, result.memory, 0), "vkBindImageMemory");
-    const auto createView = [&](VkImageAspectFlags aspect, VkImageViewType type, std::uint32_t first, std::uint32_t count) {
+    const auto createView = [&](VkImageAspectFlags aspect, VkImageViewType type, std::uint32_t first,
+                                std::uint32_t count) {
         VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
         viewInfo.image = result.image;
         viewInfo.viewType = type;
@@ -139,7 +141,8 @@ Image Device::createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags 
     };
     const bool hasStencil = (result.aspects & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
     const VkImageAspectFlags first = hasStencil ? VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT} : result.aspects;
-    result.view = createView(first, layers == 0 ? VK_IMAGE_VIEW_TYPE_2D : VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, info.arrayLayers);
+    result.view =
+        createView(first, layers == 0 ? VK_IMAGE_VIEW_TYPE_2D : VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, info.arrayLayers);
     if (hasStencil) {
         result.stencilView = createView(VK_IMAGE_ASPECT_STENCIL_BIT, VK_IMAGE_VIEW_TYPE_2D, 0, 1);
     }

@@ -1,5 +1,5 @@
-// As much of a Vulkan 1.3 renderer as the example needs: a device, images that know how they were used last, pipelines, and
-// frames in flight. Throws std::runtime_error.
+// As much of a Vulkan 1.3 renderer as the example needs: a device, images that know how they were used last, pipelines,
+// and frames in flight. Throws std::runtime_error.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -21,7 +21,8 @@ inline constexpr VkPipelineStageFlags2 depthStages =
 inline constexpr VkPipelineStageFlags2 readingStages =
     VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 // [snippet: raster-uses]
-inline constexpr Use colorTarget{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+inline constexpr Use colorTarget{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                 VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                                  VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
 inline constexpr Use depthTarget{VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, depthStages,
                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |

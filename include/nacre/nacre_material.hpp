@@ -12,8 +12,8 @@ namespace nacre {
 struct CallMaterial {
     explicit CallMaterial(const Material& material) : value(nacreDefaultMaterial()) {
         for (const Layer& layer : material.layers) {
-            layers_.push_back({{float(layer.weight[0]), float(layer.weight[1]), float(layer.weight[2])},
-                               float(layer.variance)});
+            layers_.push_back(
+                {{float(layer.weight[0]), float(layer.weight[1]), float(layer.weight[2])}, float(layer.variance)});
         }
         value.layers = layers_.data();
         value.layerCount = static_cast<std::uint32_t>(layers_.size());

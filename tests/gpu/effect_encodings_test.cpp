@@ -1,5 +1,5 @@
-// Ids, normals and masks as engines have them give the picture that the plainest images give; a scissor gives the part of it;
-// compose gives its sum.
+// Ids, normals and masks as engines have them give the picture that the plainest images give; a scissor gives the part
+// of it; compose gives its sum.
 #include "tests/gpu/support/effect.hpp"
 
 #include <algorithm>
@@ -59,7 +59,8 @@ protected:
             input_.depth[i] = 30 + 0.2f * static_cast<float>(y);
             // All around, in view space; those that look away are silhouettes' and interpolation's.
             const double turnX = 0.13 * (x - 12.0), turnY = 0.13 * (y - 12.0);
-            inView_.push_back({static_cast<float>(std::sin(turnX)), static_cast<float>(std::cos(turnX) * std::sin(turnY)),
+            inView_.push_back({static_cast<float>(std::sin(turnX)),
+                               static_cast<float>(std::cos(turnX) * std::sin(turnY)),
                                static_cast<float>(std::cos(turnX) * std::cos(turnY)), 0});
             input_.normal.push_back(rotated(input_.view, inView_.back(), true));
         }
@@ -108,16 +109,20 @@ protected:
         compose.composed = images.scattered.nacre();
         EXPECT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
         gpu.run([&](VkCommandBuffer commandBuffer) {
-            EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_SUCCESS) << effect.messages.back();
-            EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &transmit), NACRE_SUCCESS) << effect.messages.back();
+            EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_SUCCESS)
+                << effect.messages.back();
+            EXPECT_EQ(nacreCmdTransmit(effect.context, commandBuffer, &transmit), NACRE_SUCCESS)
+                << effect.messages.back();
             VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
             written.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
             written.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-            vkCmdPipelineBarrier(commandBuffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0,
-                                 1, &written, 0, nullptr, 0, nullptr);
-            EXPECT_EQ(nacreCmdCompose(effect.context, commandBuffer, &compose), NACRE_SUCCESS) << effect.messages.back();
+            vkCmdPipelineBarrier(commandBuffer, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &written, 0, nullptr, 0, nullptr);
+            EXPECT_EQ(nacreCmdCompose(effect.context, commandBuffer, &compose), NACRE_SUCCESS)
+                << effect.messages.back();
         });
-        return {gpu.download<Float4>(scattered), gpu.download<Float4>(transmitted), gpu.download<Float4>(images.scattered)};
+        return {gpu.download<Float4>(scattered), gpu.download<Float4>(transmitted),
+                gpu.download<Float4>(images.scattered)};
     }
     static void expectSame(const Pictures& a, const Pictures& b, float tolerance, const std::string& what) {
         double most = 0;
@@ -159,12 +164,14 @@ TEST_F(EncodingsTest, IdsOfStencilsAndChannels) {
     gpu.upload(alpha, channels);
     Effect effect(gpu, masked);
     for (const GpuImage* image : {&stencil, &alpha}) {
-        expectSame(render(effect, NACRE_TECHNIQUE_SEPARABLE, [&](NacreScatterInfo& info) { info.materialId = image->nacre(); }),
+        expectSame(render(effect, NACRE_TECHNIQUE_SEPARABLE,
+                          [&](NacreScatterInfo& info) { info.materialId = image->nacre(); }),
                    plain, 0, "VkFormat " + std::to_string(image->format));
     }
     const NacreMaterial material = nacreDefaultMaterial();
     EXPECT_EQ(nacreSetMaterials(effect.context, 4, 1, &material), NACRE_ERROR_INVALID_ARGUMENT);
-    EXPECT_NE(effect.messages.back().find("no pixel can have id 4, NacreContextInfo::materialIdMask is 12"), std::string::npos)
+    EXPECT_NE(effect.messages.back().find("no pixel can have id 4, NacreContextInfo::materialIdMask is 12"),
+              std::string::npos)
         << effect.messages.back();
 }
 
@@ -195,52 +202,52 @@ TEST_F(EncodingsTest, NormalsOfEveryKind) {
     NacreContextInfo brute = contextInfo();
     brute.techniques = 1u << technique;
     const Pictures plain = render(brute, technique);
-    {
-        for (const NacreNormalSpace space : {NACRE_NORMAL_WORLD, NACRE_NORMAL_VIEW}) {
-            NacreContextInfo info = brute;
-            info.normalSpace = space;
-            const std::vector<Float4>& normals = space == NACRE_NORMAL_VIEW ? inView_ : input_.normal;
-            GpuImage vectors = gpu.createImage({.extent = extent});
-            gpu.upload(vectors, normals);
-            expectSame(render(info, technique, [&](NacreScatterInfo& scatter) { scatter.normal = vectors.nacre(); }), plain,
-                       1e-5f, "three channels");
-            info.normalEncoding = NACRE_NORMAL_OCTAHEDRAL;
-            std::vector<std::array<float, 2>> floats;
-            std::vector<std::array<std::int16_t, 2>> numbers;
-            std::vector<std::array<std::uint16_t, 2>> unsignedNumbers;
-            for (const Float4& normal : normals) {
-                const std::array<float, 2> oct = octahedral(normal);
-                floats.push_back(oct);
-                numbers.push_back({static_cast<std::int16_t>(std::lround(oct[0] * 32767)),
-                                   static_cast<std::int16_t>(std::lround(oct[1] * 32767))});
-                unsignedNumbers.push_back({static_cast<std::uint16_t>(std::lround((oct[0] + 1) * 32767.5f)),
-                                           static_cast<std::uint16_t>(std::lround((oct[1] + 1) * 32767.5f))});
-            }
-            Effect effect(gpu, info);
-            const auto expectFormat = [&](VkFormat format, const auto& texels, float scale, float bias) {
-                GpuImage image = gpu.createImage({.format = format, .extent = extent, .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
-                gpu.upload(image, texels);
-                expectSame(render(effect, technique,
-                                  [&](NacreScatterInfo& scatter) {
-                                      scatter.normal = image.nacre();
-                                      scatter.normalScale = scale;
-                                      scatter.normalBias = bias;
-                                  }),
-                           plain, 1e-3f, "VkFormat " + std::to_string(format));
-            };
-            expectFormat(VK_FORMAT_R32G32_SFLOAT, floats, 1, 0);
-            expectFormat(VK_FORMAT_R16G16_SNORM, numbers, 1, 0);
-            expectFormat(VK_FORMAT_R16G16_UNORM, unsignedNumbers, 2, -1);
+    for (const NacreNormalSpace space : {NACRE_NORMAL_WORLD, NACRE_NORMAL_VIEW}) {
+        NacreContextInfo info = brute;
+        info.normalSpace = space;
+        const std::vector<Float4>& normals = space == NACRE_NORMAL_VIEW ? inView_ : input_.normal;
+        GpuImage vectors = gpu.createImage({.extent = extent});
+        gpu.upload(vectors, normals);
+        expectSame(render(info, technique, [&](NacreScatterInfo& scatter) { scatter.normal = vectors.nacre(); }), plain,
+                   1e-5f, "three channels");
+        info.normalEncoding = NACRE_NORMAL_OCTAHEDRAL;
+        std::vector<std::array<float, 2>> floats;
+        std::vector<std::array<std::int16_t, 2>> numbers;
+        std::vector<std::array<std::uint16_t, 2>> unsignedNumbers;
+        for (const Float4& normal : normals) {
+            const std::array<float, 2> oct = octahedral(normal);
+            floats.push_back(oct);
+            numbers.push_back({static_cast<std::int16_t>(std::lround(oct[0] * 32767)),
+                               static_cast<std::int16_t>(std::lround(oct[1] * 32767))});
+            unsignedNumbers.push_back({static_cast<std::uint16_t>(std::lround((oct[0] + 1) * 32767.5f)),
+                                       static_cast<std::uint16_t>(std::lround((oct[1] + 1) * 32767.5f))});
         }
+        Effect effect(gpu, info);
+        const auto expectFormat = [&](VkFormat format, const auto& texels, float scale, float bias) {
+            GpuImage image = gpu.createImage({.format = format, .extent = extent, .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+            gpu.upload(image, texels);
+            expectSame(render(effect, technique,
+                              [&](NacreScatterInfo& scatter) {
+                                  scatter.normal = image.nacre();
+                                  scatter.normalScale = scale;
+                                  scatter.normalBias = bias;
+                              }),
+                       plain, 1e-3f, "VkFormat " + std::to_string(format));
+        };
+        expectFormat(VK_FORMAT_R32G32_SFLOAT, floats, 1, 0);
+        expectFormat(VK_FORMAT_R16G16_SNORM, numbers, 1, 0);
+        expectFormat(VK_FORMAT_R16G16_UNORM, unsignedNumbers, 2, -1);
     }
     Effect effect(gpu, contextInfo());
     ScatterImages images(gpu, input_);
+    images.info.technique = NACRE_TECHNIQUE_SEPARABLE;
     images.info.normal.format = VK_FORMAT_R16G16_SNORM;
     ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
     gpu.run([&](VkCommandBuffer commandBuffer) {
         EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_ERROR_UNSUPPORTED_FORMAT);
     });
-    EXPECT_NE(effect.messages.back().find("normal.format is VK_FORMAT_R16G16_SNORM, which has two channels"), std::string::npos);
+    EXPECT_NE(effect.messages.back().find("normal.format is VK_FORMAT_R16G16_SNORM, which has two channels"),
+              std::string::npos);
 }
 
 TEST_F(EncodingsTest, ScissorGivesThePartOfThePicture) {
@@ -269,13 +276,15 @@ TEST_F(EncodingsTest, ScissorGivesThePartOfThePicture) {
     EXPECT_GT(compared, 30);
     Effect effect(gpu, contextInfo());
     ScatterImages images(gpu, input_);
+    images.info.technique = NACRE_TECHNIQUE_SEPARABLE;
     images.info.view.scissor = {{10, 10}, {15, 2}};
     ASSERT_EQ(nacreBeginFrame(effect.context, 0), NACRE_SUCCESS);
     gpu.run([&](VkCommandBuffer commandBuffer) {
         EXPECT_EQ(nacreCmdScatter(effect.context, commandBuffer, &images.info), NACRE_ERROR_INVALID_ARGUMENT);
     });
-    EXPECT_NE(effect.messages.back().find("view.scissor is 15x2 at 10,10, must lie within the render area, 24x24 at 0,0"),
-              std::string::npos)
+    EXPECT_NE(
+        effect.messages.back().find("view.scissor is 15x2 at 10,10, must lie within the render area, 24x24 at 0,0"),
+        std::string::npos)
         << effect.messages.back();
 }
 

@@ -1,5 +1,5 @@
-// Shadow maps as engines have them, against closed forms: hardware depth of every projection and format, atlases, cubes,
-// culled front faces and cascades; and how light falls off on its way.
+// Shadow maps as engines have them, against closed forms: hardware depth of every projection and format, atlases,
+// cubes, culled front faces and cascades; and how light falls off on its way.
 #include "tests/gpu/support/effect.hpp"
 
 #include <algorithm>
@@ -27,12 +27,12 @@ struct Depth {
 constexpr double n = nearPlane, f = farPlane;
 constexpr Depth orthographic{"orthographic", 1 / (f - n), -n / (f - n), 0, 1};
 constexpr Depth orthographicReversed{"orthographic, reversed", -1 / (f - n), f / (f - n), 0, 1};
-constexpr Depth perspective{"perspective", f / (f - n), -n * f / (f - n), 1, 0};
-constexpr Depth perspectiveReversed{"perspective, reversed", -n / (f - n), n * f / (f - n), 1, 0};
+constexpr Depth perspective{"perspective", f / (f - n), -n* f / (f - n), 1, 0};
+constexpr Depth perspectiveReversed{"perspective, reversed", -n / (f - n), n* f / (f - n), 1, 0};
 constexpr Depth perspectiveInfinite{"perspective, reversed and infinite", 0, n, 1, 0};
 
-/// The matrix of a light at (0, 0, -lightDepth) that looks along +z. reach: half side of the map, mm, at distance 1 where it
-/// is perspective.
+/// The matrix of a light at (0, 0, -lightDepth) that looks along +z. reach: half side of the map, mm, at distance 1
+/// where it is perspective.
 void setMatrix(float (&m)[16], const Depth& depth, double reach, double x = 0, double y = 0) {
     std::fill(std::begin(m), std::end(m), 0.0f);
     m[0] = static_cast<float>(1 / reach);
@@ -82,7 +82,8 @@ protected:
         std::vector<Float4> light;
         std::vector<float> thickness;
     };
-    NacreResult call(const ScatterInput& input, const NacreLight& light, std::span<const NacreImage> maps, Result& result) {
+    NacreResult call(const ScatterInput& input, const NacreLight& light, std::span<const NacreImage> maps,
+                     Result& result) {
         ScatterImages images(gpu, input);
         const GpuImage out = gpu.createImage(
             {.format = VK_FORMAT_R32_SFLOAT, .extent = input.extent, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
@@ -90,17 +91,16 @@ protected:
         info.thicknessOut = out.nacre();
         EXPECT_EQ(nacreBeginFrame(effect_->context, 0), NACRE_SUCCESS);
         NacreResult code = NACRE_SUCCESS;
-        gpu.run([&](VkCommandBuffer commandBuffer) {
-            code = nacreCmdTransmit(effect_->context, commandBuffer, &info);
-        });
+        gpu.run(
+            [&](VkCommandBuffer commandBuffer) { code = nacreCmdTransmit(effect_->context, commandBuffer, &info); });
         result = {gpu.download<Float4>(images.scattered), gpu.download<float>(out)};
         return code;
     }
     /// The surface as an orthographic camera at the origin sees it, lit by a light.
     Result transmit(const std::function<Surface(double x, double y)>& surface, const NacreLight& light,
                     std::span<const NacreImage> maps) {
-        ScatterInput input = ScatterInput::plane(imageSize, imageSize,
-                                                 Projection::orthographic(imageSize, imageSize, 1 / pixel), 1);
+        ScatterInput input =
+            ScatterInput::plane(imageSize, imageSize, Projection::orthographic(imageSize, imageSize, 1 / pixel), 1);
         for (std::uint32_t i = 0; i < imageSize * imageSize; ++i) {
             const Surface at = surface(x(i % imageSize), -x(i / imageSize));
             input.depth[i] = static_cast<float>(-at.z);
@@ -187,7 +187,8 @@ protected:
 constexpr double slope = 0.04;
 
 TEST_F(ShadowMapsTest, HardwareDepthOfEveryProjection) {
-    for (const Depth& depth : {orthographic, orthographicReversed, perspective, perspectiveReversed, perspectiveInfinite}) {
+    for (const Depth& depth :
+         {orthographic, orthographicReversed, perspective, perspectiveReversed, perspectiveInfinite}) {
         const bool isDirectional = depth.w == 0;
         const double reach = isDirectional ? 60 : 0.12;
         NacreLight source = light(isDirectional ? NACRE_LIGHT_DIRECTIONAL : NACRE_LIGHT_SPOT);
@@ -234,14 +235,16 @@ TEST_F(ShadowMapsTest, BallHasItsChords) {
     for (std::uint32_t i = 0; i < size * size; ++i) {
         const double u = (2 * (i % size + 0.5) / size - 1) * 30, v = (2 * (i / size + 0.5) / size - 1) * 30;
         const double height = radius * radius - u * u - v * v;
-        values.push_back(static_cast<float>(height > 0 ? orthographicReversed.at(lightDepth - 530 - std::sqrt(height)) : 0));
+        values.push_back(
+            static_cast<float>(height > 0 ? orthographicReversed.at(lightDepth - 530 - std::sqrt(height)) : 0));
     }
     const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {size, size}, values);
     const NacreImage maps[] = {map.nacre()};
     const auto ball = [](double x, double y) {
         const double height = std::sqrt(std::max(radius * radius - x * x - y * y, 0.0));
-        return Surface{height - 530, {static_cast<float>(x / radius), static_cast<float>(y / radius),
-                                      static_cast<float>(height / radius), 0}};
+        return Surface{
+            height - 530,
+            {static_cast<float>(x / radius), static_cast<float>(y / radius), static_cast<float>(height / radius), 0}};
     };
     const Result result = transmit(ball, source, maps);
     for (std::uint32_t i = 0; i < imageSize * imageSize; ++i) {
@@ -269,7 +272,8 @@ TEST_F(ShadowMapsTest, RectangleOfAnAtlas) {
     const NacreImage maps[] = {map.nacre()};
     expectSlab(transmit(plane, source, maps), false, slope);
     source.shadowRectangle.offset.x = 129;
-    expectRefused(source, maps, "lights[0].shadowRectangle is 128x128 at 129,31, must lie within its shadow map's 256x200");
+    expectRefused(source, maps,
+                  "lights[0].shadowRectangle is 128x128 at 129,31, must lie within its shadow map's 256x200");
 }
 
 TEST_F(ShadowMapsTest, CubeOfHardwareDepth) {
@@ -339,7 +343,8 @@ TEST_F(ShadowMapsTest, CascadesShowNoSeam) {
             setMatrix(cascades[c].clipFromWorld, orthographic, reaches[c], 0, middle);
             for (std::uint32_t i = 0; i < size * size; ++i) {
                 const double y = (2 * (i / size + 0.5) / size - 1) * reaches[c] + middle;
-                values.push_back(static_cast<float>(orthographic.at(lightDepth - receiverDepth - lean * y - thickness)));
+                values.push_back(
+                    static_cast<float>(orthographic.at(lightDepth - receiverDepth - lean * y - thickness)));
             }
         }
         map = createMap(VK_FORMAT_D32_SFLOAT, {size, size}, values);
@@ -401,9 +406,10 @@ TEST_F(ShadowMapsTest, DepthBuffersAreNotTakenForLinear) {
     source.shadowRange = 2000;
     const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {64, 64}, slabMap(64, perspective, 0.12, slope));
     const NacreImage maps[] = {map.nacre()};
-    expectRefused(source, maps,
-                  "lights[0].shadowDepthEncoding is NACRE_DEPTH_LINEAR, but its map, NacreTransmitInfo::shadowMaps[0], has "
-                  "the depth format VK_FORMAT_D32_SFLOAT");
+    expectRefused(
+        source, maps,
+        "lights[0].shadowDepthEncoding is NACRE_DEPTH_LINEAR, but its map, NacreTransmitInfo::shadowMaps[0], has "
+        "the depth format VK_FORMAT_D32_SFLOAT");
     source.shadowDepthEncoding = NACRE_DEPTH_HARDWARE;
     std::fill(std::begin(source.shadowClipFromWorld), std::end(source.shadowClipFromWorld), 0.0f);
     expectRefused(source, maps, "lights[0].shadowClipFromWorld has no inverse");

@@ -49,7 +49,8 @@ void bakeThesisKernel(Context& context, std::uint32_t materialId, std::uint32_t 
         fail(NACRE_ERROR_INVALID_ARGUMENT, "materialId is ", materialId, ", which nacreSetMaterials has not set");
     }
     if (context.noMaterialIds) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, "a kernel is baked, but NacreContextInfo::noMaterialIds is VK_TRUE: baked passes "
+        fail(NACRE_ERROR_INVALID_ARGUMENT,
+             "a kernel is baked, but NacreContextInfo::noMaterialIds is VK_TRUE: baked passes "
              "read ids");
     }
     KernelConstants constants{};
