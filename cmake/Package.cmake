@@ -24,15 +24,29 @@ if(NOT NACRE_INSTALL OR NACRE_DEVELOPER) # a developer build's shaders are in it
     return()
 endif()
 
+# A program in C that links the static library lacks C++'s runtime: the libraries that the C++ compiler adds by itself.
+if(NOT BUILD_SHARED_LIBS)
+    set(runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+    list(FILTER runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
+    list(REMOVE_DUPLICATES runtime)
+    target_link_libraries(nacre_core INTERFACE ${runtime})
+endif()
+
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/nacre)
-install(TARGETS nacre nacre_core EXPORT nacre COMPONENT nacre
+if(NACRE_BUILD_FILES)
+    set(files nacre_material_files nacre_files)
+endif()
+install(TARGETS nacre nacre_core ${files} EXPORT nacre COMPONENT nacre
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT nacre NAMELINK_COMPONENT nacre
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT nacre
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT nacre)
 install(EXPORT nacre NAMESPACE nacre:: FILE nacreTargets.cmake DESTINATION ${package_directory} COMPONENT nacre)
-# files.hpp belongs to nacre::files, which needs a JSON library and is not installed.
+# Material files need a JSON library to build (header only), and none to use.
+if(NOT NACRE_BUILD_FILES)
+    set(no_files PATTERN files.hpp EXCLUDE PATTERN nacre_files.h EXCLUDE)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/nacre DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT nacre
-        FILES_MATCHING PATTERN *.h PATTERN *.hpp PATTERN files.hpp EXCLUDE)
+        FILES_MATCHING PATTERN *.h PATTERN *.hpp ${no_files})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT nacre)
 # The parts, for engines that dispatch by themselves: GLSL sources and the SPIR-V made of them.
 if(NOT NACRE_BUILD_BASELINES)

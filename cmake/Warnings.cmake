@@ -8,8 +8,13 @@ if(NACRE_SANITIZE)
 endif()
 
 function(nacre_warnings target)
+    if(MSVC)
+        target_compile_options(${target} PRIVATE /W4 /permissive- /utf-8 $<$<BOOL:${NACRE_WARNINGS_AS_ERRORS}>:/WX>)
+        return()
+    endif()
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-        -Wno-missing-field-initializers $<$<BOOL:${NACRE_WARNINGS_AS_ERRORS}>:-Werror>)
+        -Wno-missing-field-initializers $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-missing-designated-field-initializers;-Wno-unknown-warning-option>
+        $<$<BOOL:${NACRE_WARNINGS_AS_ERRORS}>:-Werror>)
     if(NACRE_SANITIZE)
         target_compile_options(${target} PUBLIC -fsanitize=${NACRE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
         target_link_options(${target} PUBLIC -fsanitize=${NACRE_SANITIZE})

@@ -1,6 +1,6 @@
 #include "bench/effect/shader_statistics.hpp"
 
-#include "nacre/nacre_parts.h"
+#include "nacre/nacre_passes.h"
 #include "renderer/vulkan/vulkan.hpp"
 
 #include <chrono>

@@ -50,7 +50,8 @@ void compose(Context& context, VkCommandBuffer commandBuffer, const NacreCompose
     descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
     descriptors.storage(bindingTables, context.materials->parameters(info.frame)); // there are none
     descriptors.sampled(bindingDepth, info.scattered, info.scattered);
-    descriptors.sampled(bindingMaterialId, info.materialId, info.scattered);
+    const NacreImage ids = idsOf(context, info.materialId);
+    descriptors.sampled(bindingMaterialId, ids, ids);
     descriptors.sampled(bindingNormal, info.transmitted, info.scattered);
     descriptors.sampled(bindingStrength, info.strength, info.scattered);
     descriptors.sampled(bindingIrradiance, info.scattered, info.scattered);
@@ -59,7 +60,8 @@ void compose(Context& context, VkCommandBuffer commandBuffer, const NacreCompose
     descriptors.intermediates(context, context.scatter.intermediates);
     descriptors.write(context.device);
     ++context.frames[info.frame].compose.used;
-    recordPasses({context, context.scatter, composeIndex, commandBuffer, call.set, area.extent, info.timestamps, 0});
+    recordPasses({context, context.scatter, composeIndex, commandBuffer, call.set, area.extent, info.timestamps,
+                  idsIntermediate(context)});
 }
 
 } // namespace

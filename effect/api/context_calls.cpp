@@ -148,6 +148,9 @@ void prepare(Context& context, const NacreContextInfo& info, std::uint32_t frame
             (i == transmitIndex ? context.transmit : context.scatter).intermediates |= techniques[i]->uses();
         }
     }
+    const IntermediateSet everywhere = context.noMaterialIds ? bit(intermediateNoIds) : 0;
+    context.scatter.intermediates |= everywhere;
+    context.transmit.intermediates |= everywhere;
     context.maxExtent = info.maxExtent;
     context.intermediates = createIntermediates(
         context.device, context.scatter.intermediates | context.transmit.intermediates, info.maxExtent);

@@ -64,7 +64,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
     descriptors.storage(bindingTables, context.materials->table(info.frame, technique));
     descriptors.sampled(bindingDepth, info.depth, info.depth);
-    descriptors.sampled(bindingMaterialId, info.materialId, info.depth);
+    const NacreImage ids = idsOf(context, info.materialId);
+    descriptors.sampled(bindingMaterialId, ids, ids);
     descriptors.sampled(bindingNormal, info.normal, info.irradiance);
     descriptors.sampled(bindingStrength, info.strength, info.irradiance);
     descriptors.sampled(bindingIrradiance, info.irradiance, info.irradiance);
@@ -74,7 +75,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.write(context.device);
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, call.set, area.extent, info.timestamps,
-                  techniques[technique]->uses(), materials.slotCount, variantOf(given, materials), baked});
+                  techniques[technique]->uses() | idsIntermediate(context), materials.slotCount,
+                  variantOf(given, materials), baked});
 }
 
 } // namespace

@@ -72,7 +72,8 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.storage(bindingTables, context.materials->table(info.frame, transmitIndex));
     descriptors.storage(bindingLights, call.lights);
     descriptors.sampled(bindingDepth, info.depth, info.depth);
-    descriptors.sampled(bindingMaterialId, info.materialId, info.depth);
+    const NacreImage ids = idsOf(context, info.materialId);
+    descriptors.sampled(bindingMaterialId, ids, ids);
     descriptors.sampled(bindingNormal, info.normal, info.normal);
     descriptors.sampled(bindingStrength, info.strength, info.normal);
     descriptors.sampled(bindingThickness, info.thickness, info.normal);
@@ -84,7 +85,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, call.set, area.extent, info.timestamps,
-                  maps.empty() ? transmitTechnique.uses() : 0, 0,
+                  (maps.empty() ? transmitTechnique.uses() : 0) | idsIntermediate(context), 0,
                   (maps.size() > 1 ? severalShadowMaps : 0) | (needGeneralLights(info) ? generalLights : 0)});
 }
 

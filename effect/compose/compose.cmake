@@ -1,2 +1,2 @@
 target_sources(nacre PRIVATE compose/compose_technique.cpp)
-nacre_shader(nacre compose/compose.comp NAME compose TRANSLATED)
+nacre_shader(nacre compose/compose_sum.comp NAME compose TRANSLATED)

@@ -70,7 +70,6 @@ void checkFormatAndUsage(const NacreImage& image, const NacreImageRequirements& 
                                image.layout == VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL ||
                                image.layout == VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL ||
                                image.layout == VK_IMAGE_LAYOUT_STENCIL_READ_ONLY_OPTIMAL ||
-                               image.layout == VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_STENCIL_READ_ONLY_OPTIMAL ||
                                image.layout == VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL;
     const bool isOutput = (requirements.usage & VK_IMAGE_USAGE_STORAGE_BIT) != 0;
     if (image.layout != VK_IMAGE_LAYOUT_GENERAL && (isOutput || !sampledLayout)) {

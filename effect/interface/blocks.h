@@ -28,6 +28,7 @@ NACRE_CONSTANT bindingThicknessOut = 14; // transmit, output
 NACRE_CONSTANT bindingIntermediates = 16; // + the intermediate… constants
 
 // The techniques' blocks have the other intermediates; a number means the same in all of them.
+NACRE_CONSTANT intermediateNoIds = 15; // stands in for the ids where a context has none; never read
 NACRE_CONSTANT intermediateRows = 0; // light after a pass over rows: `separable` and `thesis`
 
 // ViewParameters::flags: which optional images are given, and what is asked for.

@@ -3,7 +3,7 @@
 
 #include "technique.hpp"
 
-#include "nacre/nacre_parts.h"
+#include "nacre/nacre_passes.h"
 
 #include <vector>
 

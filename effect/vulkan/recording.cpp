@@ -155,6 +155,16 @@ void DescriptorWriter::write(const Device& device) {
     device.vk.UpdateDescriptorSets(device.handle, writeCount_, writes_.data(), 0, nullptr);
 }
 
+NacreImage idsOf(const Context& context, const NacreImage& materialId) {
+    return context.noMaterialIds ? NacreImage{.view = context.intermediates[intermediateNoIds].image.view.get(),
+                                              .layout = VK_IMAGE_LAYOUT_GENERAL}
+                                 : materialId;
+}
+
+IntermediateSet idsIntermediate(const Context& context) {
+    return context.noMaterialIds ? bit(intermediateNoIds) : 0;
+}
+
 void recordPasses(const PassRecording& recording) {
     const Technique& technique = *techniques[recording.technique];
     const DispatchTable& vk = recording.context.device.vk;

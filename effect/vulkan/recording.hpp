@@ -35,6 +35,11 @@ private:
     std::array<VkDescriptorImageInfo, capacity + maxShadowMaps> images_;
 };
 
+/// The call's ids or, in a context without them, what stands in for them.
+NacreImage idsOf(const Context& context, const NacreImage& materialId);
+/// The intermediate that stands in, if any: what a call touches beside its passes' own.
+IntermediateSet idsIntermediate(const Context& context);
+
 /// What recordPasses needs to know.
 struct PassRecording {
     const Context& context;

@@ -311,7 +311,7 @@ typedef struct NacreImage {
     VkImageView view;        /**< VK_NULL_HANDLE = not given */
     VkFormat format;
     VkImageLayout layout;    /**< the layout it is in, and stays in: outputs VK_IMAGE_LAYOUT_GENERAL, inputs that or
-                                  SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL,
+                                  SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL, STENCIL_READ_ONLY_OPTIMAL,
                                   DEPTH_STENCIL_READ_ONLY_OPTIMAL or DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL */
     VkExtent2D extent;       /**< px */
     VkImageUsageFlags usage; /**< what it was created with; 0 = not stated, not checked */

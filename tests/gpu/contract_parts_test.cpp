@@ -1,4 +1,4 @@
-// The effect without a context (nacre_parts.h): passes dispatched by hand give the very picture of nacreCmdScatter and
+// The effect without a context (nacre_passes.h): passes dispatched by hand give the very picture of nacreCmdScatter and
 // nacreCmdTransmit, and wrong arguments are refused.
 #include "nacre/nacre_baselines.h"
 #include "tests/gpu/support/effect.hpp"

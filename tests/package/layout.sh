@@ -10,13 +10,13 @@ trap 'rm -rf "$work"' EXIT
 
 # Without comments, a declaration a line.
 declarations() {
-    for header in nacre.h nacre_baselines.h nacre_parts.h; do
+    for header in nacre.h nacre_baselines.h nacre_passes.h; do
         cc -w -fpreprocessed -dD -E -P "$include/nacre/$header" | grep -v '^#' | tr '\n' ' ' | sed 's/[;{},]/&\n/g'
     done
 }
 
 {
-    printf '#include <nacre/nacre_baselines.h>\n#include <nacre/nacre_parts.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {\n'
+    printf '#include <nacre/nacre_baselines.h>\n#include <nacre/nacre_passes.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {\n'
     printf 'printf("version %%d.%%d.%%d\\n", NACRE_VERSION_MAJOR, NACRE_VERSION_MINOR, NACRE_VERSION_PATCH);\n'
     declarations | awk '
         match($0, /typedef (struct|enum) Nacre[A-Za-z]+ *\{/) { kind = $2; name = $3; sub(/\{/, "", name); next }

@@ -33,10 +33,12 @@ run() {
 }
 
 say "docs/integration.md"
-awk '/^```sh$/ { typing = 1; next } /^```$/ { typing = 0 } typing' nacre/docs/integration.md > commands.sh
+awk '/^```sh$/ { typing = 1; next } /^```$/ { typing = 0 } typing' nacre/docs/integration.md \
+    nacre/docs/integration-raster.md > commands.sh
 cat commands.sh
 run bash -euxo pipefail commands.sh
 "$compare_pictures" minimal.png nacre/docs/images/minimal.png
+"$compare_pictures" deferred.png nacre/docs/images/deferred.png
 # The library is compiled from its own files, the standard headers and Vulkan's alone.
 foreign=$(clean ninja -C nacre-build -t deps | sed -nE 's|^ +/usr/(local/)?include/||p' |
     grep -vE '^(vulkan|vk_video|c\+\+|bits|sys|linux|asm|asm-generic|gnu|[a-z0-9_]+-linux-gnu)/|^[^/]+$' || true)
@@ -46,7 +48,7 @@ if [ -n "$foreign" ]; then
 fi
 
 say "the shared library"
-clean cmake -S nacre -B nacre-build -DBUILD_SHARED_LIBS=ON > log.txt
+clean cmake -S nacre -B nacre-build -DBUILD_SHARED_LIBS=ON -DNACRE_BUILD_FILES=ON > log.txt
 clean cmake --build nacre-build > log.txt || { cat log.txt; exit 1; }
 clean cmake --install nacre-build --prefix "$work/shared" > log.txt
 nacre/tests/package/abi.sh "$work/shared/lib/libnacre.so" "$work"/shared/include/nacre/*.h
@@ -60,6 +62,13 @@ for kind in static shared; do
     run "find-$kind/consumer"
     run "find-$kind/core_consumer"
     run "find-$kind/parts_consumer"
+
+    say "a project in C alone, $kind"
+    clean cmake -S "$consumer/c_alone" -B "c-$kind" -DCMAKE_PREFIX_PATH="$work/$kind" > log.txt
+    clean cmake --build "c-$kind" > log.txt || { cat log.txt; exit 1; }
+    run "c-$kind/c_alone"
+    if clean cmake -S "$consumer/c_alone" -B "c-$kind" -DCOMPONENT=cores > log.txt 2>&1; then exit 1; fi
+    grep -q 'nacre has no component "cores"' log.txt
 
     say "pkg-config, $kind"
     ask() { clean PKG_CONFIG_PATH="$work/$kind/lib/pkgconfig" pkg-config "$@" nacre; }

@@ -48,6 +48,7 @@ std::size_t texelBytes(VkFormat format) {
     case VK_FORMAT_R32G32B32A32_SFLOAT:
         return 16;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R32G32_SFLOAT:
         return 8;
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_D32_SFLOAT:

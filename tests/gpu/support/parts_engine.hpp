@@ -1,8 +1,8 @@
-// An engine that dispatches the effect's passes itself: nacre_parts.h, plain Vulkan, and no NacreContext. One
+// An engine that dispatches the effect's passes itself: nacre_passes.h, plain Vulkan, and no NacreContext. One
 // technique, one call at a time. docs/integration.md quotes it.
 #pragma once
 
-#include "nacre/nacre_parts.h"
+#include "nacre/nacre_passes.h"
 #include "tests/gpu/support/headless_gpu.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 /* The effect without a context, as installed: lists the default technique's passes, and fills what they read, without a
  * device and without Vulkan's loader. SPIRV_DIRECTORY: where the package has the passes' files; not defined in a build
  * of the library itself. */
-#include <nacre/nacre_parts.h>
+#include <nacre/nacre_passes.h>
 #include <stdio.h>
 #include <stdlib.h>
 

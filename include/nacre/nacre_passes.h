@@ -1,6 +1,6 @@
-/* The effect without its context: for engines with a layer of their own over Vulkan, Direct3D or Metal. They make the
- * pipelines, the memory and the barriers; the functions here list the passes and what they bind as data, and fill what
- * the passes read. A NacreContext is made of the same lists and filled by the same functions.
+/* The effect as passes that an engine dispatches by itself, without a context: for engines with a layer of their own over
+ * Vulkan, Direct3D or Metal. They make the pipelines, the memory and the barriers; the functions here list the passes and what
+ * they bind as data, and fill what the passes read. A NacreContext is made of the same lists and filled by the same functions.
  *
  * None of them needs a device, keeps memory or has a state; they may be called on any thread at any time. Of Vulkan only
  * the headers are used.
@@ -10,6 +10,8 @@
  *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial or
  *            several repeats, a push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps,
  *            hasAlbedoOrStrength or hasGeneralLights takes two pipelines; with two of these, four.
+ *            Every pass may have the constants 1000, a VkBool32, and 1001, a uint32_t, by default 0: that there are no ids, and
+ *            how normals are encoded (interface/encoded_inputs.glsl).
  *  materials The buffer "materials" starts with 65536 uint32_t: the slot of every material id, 0 where none is set. Slots
  *            count from 1. nacreFillMaterial fills a slot's element there, nacreFillTable its element of "tables".
  *            A buffer of n materials is head + (n + 1) * stride bytes. Change a material only when no frame reads it.
@@ -26,8 +28,8 @@
  * Blocks are laid out as the structures of interface/blocks.h and of each technique's ..._blocks.h among the shaders (C++ and
  * GLSL), which say what is in them.
  */
-#ifndef NACRE_PARTS_H
-#define NACRE_PARTS_H
+#ifndef NACRE_PASSES_H
+#define NACRE_PASSES_H
 
 #include "nacre/nacre.h"
 

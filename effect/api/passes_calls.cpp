@@ -1,4 +1,4 @@
-// nacre_parts.h: what a context is made of, for those who do without one.
+// nacre_passes.h: what a context is made of, for those who do without one.
 #include "api/guard.hpp"
 #include "contract/list.hpp"
 #include "contract/material_check.hpp"
@@ -9,7 +9,7 @@
 #include "vulkan/bindings.hpp"
 
 #include "nacre/nacre_baselines.h"
-#include "nacre/nacre_parts.h"
+#include "nacre/nacre_passes.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,0 +1,515 @@
+// A deferred renderer as engines have them, with subsurface scattering: rasterised bodies on a table, lit from behind
+// by a sun with four shadow cascades of hardware depth; a G-buffer with material ids in the stencil and octahedral
+// normals in view space; a reversed depth buffer; several frames in flight; a size that changes. What is Nacre's stands
+// in snippets.
+//
+// Usage: deferred [picture.png [frames in flight]]
+#include "raster_device.hpp"
+
+// [snippet: raster-headers]
+#include <nacre/nacre.hpp>
+// [end]
+
+#define GLM_FORCE_DEPTH_ZERO_TO_ONE
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <stb/stb_image_write.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+constexpr std::uint32_t bodyVert[] =
+#include "body.vert.inc"
+    ;
+constexpr std::uint32_t surfaceFrag[] =
+#include "surface.frag.inc"
+    ;
+constexpr std::uint32_t screenVert[] =
+#include "screen.vert.inc"
+    ;
+constexpr std::uint32_t lightingFrag[] =
+#include "lighting.frag.inc"
+    ;
+constexpr std::uint32_t addFrag[] =
+#include "add.frag.inc"
+    ;
+
+constexpr std::uint32_t bodyCount = 8;
+constexpr std::uint32_t cascadeCount = 4;
+constexpr std::uint32_t verticesOfBody = 6 * 48 * 64;
+constexpr std::uint32_t mapSize = 1024;
+constexpr float nearPlane = 0.01f;
+constexpr VkExtent2D sizes[] = {{360, 200}, {480, 270}}; // it changes in the middle
+constexpr int frameCount = 8;
+
+/// As in ellipsoid.glsl. Metres.
+struct FrameBlock {
+    glm::mat4 viewFromWorld, clipFromView, worldFromView;
+    glm::mat4 shadowClipFromWorld[cascadeCount];
+    glm::vec4 cascadeEnds;
+    glm::vec4 lightDirection;
+    struct {
+        glm::vec4 center, radius;
+    } bodies[bodyCount];
+};
+
+/// A projection that looks along -Z, with depth 1 at the near plane and 0 infinitely far. Vulkan's clip space has y
+/// down.
+glm::mat4 reversedPerspective(float fieldOfView, float aspect) {
+    const float f = 1 / std::tan(fieldOfView / 2);
+    return {{f / aspect, 0, 0, 0}, {0, -f, 0, 0}, {0, 0, 0, -1}, {0, 0, nearPlane, 0}};
+}
+
+/// The light's matrix for the part of the camera's frustum between two depths.
+glm::mat4 cascadeMatrix(const FrameBlock& frame, float from, float to) {
+    glm::vec3 corners[8];
+    glm::vec3 middle(0);
+    for (int i = 0; i < 8; ++i) {
+        const float depth = i < 4 ? from : to;
+        const glm::vec4 point((i & 1 ? depth : -depth) / frame.clipFromView[0][0],
+                              (i & 2 ? depth : -depth) / frame.clipFromView[1][1], -depth, 1);
+        corners[i] = frame.worldFromView * point;
+        middle += corners[i] / 8.0f;
+    }
+    float radius = 0;
+    for (const glm::vec3& corner : corners) {
+        radius = std::max(radius, glm::length(corner - middle));
+    }
+    const glm::vec3 direction(frame.lightDirection);
+    const glm::mat4 view = glm::lookAt(middle - direction, middle, glm::vec3(0, 1, 0));
+    return glm::ortho(-radius, radius, -radius, radius, 0.0f, 2.0f) * view;
+}
+
+FrameBlock makeFrame(VkExtent2D extent, int number) {
+    FrameBlock frame{};
+    const float aside = 0.002f * static_cast<float>(number);
+    frame.viewFromWorld =
+        glm::lookAt(glm::vec3(0.01f + aside, 0.055f, 0.17f), glm::vec3(0, 0.022f, 0), glm::vec3(0, 1, 0));
+    frame.worldFromView = glm::inverse(frame.viewFromWorld);
+    frame.clipFromView =
+        reversedPerspective(0.7f, static_cast<float>(extent.width) / static_cast<float>(extent.height));
+    frame.lightDirection = glm::vec4(glm::normalize(glm::vec3(-0.25f, -0.45f, 0.85f)), 6.0f);
+    frame.cascadeEnds = {0.14f, 0.2f, 0.32f, 0.8f};
+    for (std::uint32_t i = 0; i < cascadeCount; ++i) {
+        frame.shadowClipFromWorld[i] =
+            cascadeMatrix(frame, i == 0 ? nearPlane : frame.cascadeEnds[i - 1], frame.cascadeEnds[i]);
+    }
+    frame.bodies[0] = {{0, -0.1f, -0.1f, 0}, {0.6f, 0.1f, 0.6f, 0}}; // the table
+    for (int i = 1; i < int{bodyCount}; ++i) {                       // balls and sheets, one behind the other
+        const bool isSheet = i % 2 == 0;
+        const float x = 0.05f * static_cast<float>(i % 3 - 1);
+        const float z = 0.06f - 0.045f * static_cast<float>(i);
+        frame.bodies[i] = {{x, 0.021f, z, 1 + i % 3}, {0.02f, 0.02f, isSheet ? 0.0015f : 0.02f, 0}};
+    }
+    return frame;
+}
+
+// [snippet: raster-context]
+void check(NacreResult result) {
+    if (result != NACRE_SUCCESS) {
+        throw std::runtime_error(nacreResultString(result)); // the callback has said which field, and why
+    }
+}
+
+nacre::Context createContext(const Device& device, VkExtent2D extent, const VkPhysicalDeviceFeatures& features) {
+    NacreContextInfo info{};
+    info.headerVersion = NACRE_HEADER_VERSION;
+    info.messageCallback = [](NacreSeverity, const char* message, void*) {
+        std::fprintf(stderr, "nacre: %s\n", message);
+    };
+    info.instance = device.instance;
+    info.physicalDevice = device.physicalDevice;
+    info.device = device.device;
+    info.getInstanceProcAddr = vkGetInstanceProcAddr;
+    info.enabledFeatures = &features;
+    info.maxExtent = extent;
+    info.techniques = 1u << NACRE_TECHNIQUE_DEFAULT;
+    info.framesInFlight = static_cast<std::uint32_t>(device.frames.size());
+    info.materialIdMask = 0xf0; // the upper half of the stencil; the engine's own bits are the lower
+    info.materialIdShift = 4;
+    info.normalEncoding = NACRE_NORMAL_OCTAHEDRAL;
+    info.normalSpace = NACRE_NORMAL_VIEW;
+    nacre::Context context;
+    check(nacre::Context::create(info, context));
+    const char* presets[] = {"marble", "skin", "wax"};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        check(context.setPreset(1 + i, presets[i]));
+    }
+    return context;
+}
+// [end]
+
+struct Images {
+    Image shadowMap, albedo, normal, depth, irradiance, picture;
+    Image scattered, transmitted, composed; // the effect's
+
+    template <typename Each> void forEach(Each&& each) {
+        for (Image* image :
+             {&shadowMap, &albedo, &normal, &depth, &irradiance, &picture, &scattered, &transmitted, &composed}) {
+            each(*image);
+        }
+    }
+};
+
+// [snippet: raster-images]
+void createEffectImages(Device& device, VkExtent2D extent, Images& images) {
+    for (Image* image : {&images.scattered, &images.transmitted, &images.composed}) {
+        *image = device.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent,
+                                    VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    }
+}
+
+NacreImage effectImage(const Image& image) {
+    return {image.view, image.format, image.last.layout, image.extent, image.usage};
+}
+// [end]
+
+Images createImages(Device& device, VkExtent2D extent) {
+    constexpr VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    constexpr VkImageUsageFlags depth = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    Images images;
+    images.shadowMap = device.createImage(VK_FORMAT_D32_SFLOAT, {mapSize, mapSize}, depth, cascadeCount);
+    images.albedo = device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color);
+    images.normal = device.createImage(VK_FORMAT_R16G16_SFLOAT, extent, color);
+    images.depth = device.createImage(VK_FORMAT_D32_SFLOAT_S8_UINT, extent, depth);
+    images.irradiance = device.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent, color);
+    images.picture = device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    createEffectImages(device, extent, images);
+    return images;
+}
+
+struct Pipelines {
+    VkPipeline shadow, surface, lighting, add;
+};
+
+Pipelines createPipelines(Device& device) {
+    return {device.createPipeline({.vertex = bodyVert,
+                                   .fragment = {},
+                                   .colors = {},
+                                   .depth = VK_FORMAT_D32_SFLOAT,
+                                   .compare = VK_COMPARE_OP_LESS}),
+            device.createPipeline({.vertex = bodyVert,
+                                   .fragment = surfaceFrag,
+                                   .colors = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16_SFLOAT},
+                                   .depth = VK_FORMAT_D32_SFLOAT_S8_UINT,
+                                   .compare = VK_COMPARE_OP_GREATER,
+                                   .writesStencil = true}),
+            device.createPipeline({.vertex = screenVert,
+                                   .fragment = lightingFrag,
+                                   .colors = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB}}),
+            device.createPipeline(
+                {.vertex = screenVert, .fragment = addFrag, .colors = {VK_FORMAT_R8G8B8A8_SRGB}, .adds = true})};
+}
+
+/// One frame's drawing. Everything is on one queue, and images are the same in all frames: `use` orders a frame after
+/// what the one before did with them.
+class Renderer {
+public:
+    explicit Renderer(std::uint32_t framesInFlight)
+        // [snippet: raster-device]
+        : requirements_(requirements()),
+          device_(requirements_.features, requirements_.features12)
+    // [end]
+    {
+        device_.createFrames(framesInFlight, sizeof(FrameBlock));
+        pipelines_ = createPipelines(device_);
+        images_ = createImages(device_, sizes[0]);
+        extent_ = sizes[0];
+        context_ = createContext(device_, extent_, requirements_.features);
+        bindImages();
+        pixels_ =
+            device_.createBuffer(VkDeviceSize{4} * sizes[1].width * sizes[1].height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    }
+    ~Renderer() {
+        vkDeviceWaitIdle(device_.device);
+        context_ = {};
+        images_.forEach([&](Image& image) { device_.destroy(image); });
+    }
+    Renderer(const Renderer&) = delete;
+
+    void resize(VkExtent2D extent) {
+        vkDeviceWaitIdle(device_.device);
+        images_.forEach([&](Image& image) { device_.destroy(image); });
+        images_ = createImages(device_, extent);
+        extent_ = extent;
+        // [snippet: raster-resize]
+        check(context_.resize(extent)); // the device is idle
+        // [end]
+        bindImages();
+    }
+
+    void draw(int number) {
+        const auto index = static_cast<std::uint32_t>(number) % static_cast<std::uint32_t>(device_.frames.size());
+        const Device::Frame& frame = device_.frames[index];
+        ::check(vkWaitForFences(device_.device, 1, &frame.finished, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+        ::check(vkResetFences(device_.device, 1, &frame.finished), "vkResetFences");
+        block_ = makeFrame(extent_, number);
+        std::memcpy(frame.uniforms.mapped, &block_, sizeof(block_));
+        commands_ = frame.commands;
+        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        ::check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+        vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, device_.layout, 0, 1, &frame.set, 0,
+                                nullptr);
+        drawShadows();
+        drawSurfaces();
+        drawLighting();
+        drawSubsurface(index);
+        addSubsurface();
+        copyPicture();
+        ::check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+        VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+        submit.commandBufferCount = 1;
+        submit.pCommandBuffers = &commands_;
+        ::check(vkQueueSubmit(device_.queue, 1, &submit, frame.finished), "vkQueueSubmit");
+    }
+
+    void save(const char* path) {
+        vkDeviceWaitIdle(device_.device);
+        const auto width = static_cast<int>(extent_.width);
+        if (stbi_write_png(path, width, static_cast<int>(extent_.height), 4, pixels_.mapped, 4 * width) == 0) {
+            throw std::runtime_error(std::string("cannot write ") + path);
+        }
+        std::printf("wrote %s\n", path);
+    }
+
+private:
+    // [snippet: raster-requirements]
+    static NacreRequirements requirements() {
+        NacreRequirements result{};
+        check(nacreGetRequirements(&result));
+        return result;
+    }
+    // [end]
+
+    void bindImages() {
+        const VkDescriptorImageInfo bound[] = {
+            {device_.sampler, images_.depth.view, depthRead.layout},
+            {device_.sampler, images_.depth.stencilView, depthRead.layout},
+            {device_.sampler, images_.normal.view, colorRead.layout},
+            {device_.sampler, images_.albedo.view, colorRead.layout},
+            {device_.sampler, images_.shadowMap.view, depthRead.layout},
+            {device_.sampler, images_.composed.view, generalRead.layout},
+        };
+        for (std::uint32_t i = 0; i < device_.frames.size(); ++i) {
+            device_.bind(i, bound);
+        }
+    }
+
+    static VkRenderingAttachmentInfo target(VkImageView view, const Use& as, VkAttachmentLoadOp load, float depth = 0) {
+        VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        info.imageView = view;
+        info.imageLayout = as.layout;
+        info.loadOp = load;
+        info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        info.clearValue.depthStencil.depth = depth;
+        return info;
+    }
+
+    void beginRendering(VkExtent2D extent, std::span<const VkRenderingAttachmentInfo> colors,
+                        const VkRenderingAttachmentInfo* depth, bool hasStencil) {
+        VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+        info.renderArea.extent = extent;
+        info.layerCount = 1;
+        info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
+        info.pColorAttachments = colors.data();
+        info.pDepthAttachment = depth;
+        info.pStencilAttachment = hasStencil ? depth : nullptr;
+        vkCmdBeginRendering(commands_, &info);
+        const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+        vkCmdSetViewport(commands_, 0, 1, &viewport);
+        vkCmdSetScissor(commands_, 0, 1, &info.renderArea);
+    }
+
+    void drawBody(int cascade, std::uint32_t body) {
+        const std::int32_t draw[] = {cascade, static_cast<std::int32_t>(body)};
+        vkCmdPushConstants(commands_, device_.layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                           sizeof(draw), draw);
+        vkCmdDraw(commands_, verticesOfBody, 1, 0, 0);
+    }
+
+    void drawShadows() {
+        use(commands_, images_.shadowMap, depthTarget, true);
+        for (std::uint32_t cascade = 0; cascade < cascadeCount; ++cascade) {
+            const VkRenderingAttachmentInfo depth =
+                target(images_.shadowMap.layers[cascade], depthTarget, VK_ATTACHMENT_LOAD_OP_CLEAR, 1);
+            beginRendering(images_.shadowMap.extent, {}, &depth, false);
+            vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.shadow);
+            for (std::uint32_t body = 0; body < bodyCount; ++body) {
+                drawBody(static_cast<int>(cascade), body);
+            }
+            vkCmdEndRendering(commands_);
+        }
+        use(commands_, images_.shadowMap, depthRead);
+    }
+
+    void drawSurfaces() {
+        use(commands_, images_.albedo, colorTarget, true);
+        use(commands_, images_.normal, colorTarget, true);
+        use(commands_, images_.depth, depthTarget, true);
+        const VkRenderingAttachmentInfo colors[] = {
+            target(images_.albedo.view, colorTarget, VK_ATTACHMENT_LOAD_OP_CLEAR),
+            target(images_.normal.view, colorTarget, VK_ATTACHMENT_LOAD_OP_CLEAR)};
+        const VkRenderingAttachmentInfo depth = target(images_.depth.view, depthTarget, VK_ATTACHMENT_LOAD_OP_CLEAR);
+        beginRendering(extent_, colors, &depth, true);
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.surface);
+        for (std::uint32_t body = 0; body < bodyCount; ++body) {
+            const auto material = static_cast<std::uint32_t>(block_.bodies[body].center.w);
+            vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, material << 4 | 0x5);
+            drawBody(-1, body);
+        }
+        vkCmdEndRendering(commands_);
+        use(commands_, images_.albedo, colorRead);
+        use(commands_, images_.normal, colorRead);
+        use(commands_, images_.depth, depthRead);
+    }
+
+    void drawLighting() {
+        use(commands_, images_.irradiance, colorTarget, true);
+        use(commands_, images_.picture, colorTarget, true);
+        const VkRenderingAttachmentInfo colors[] = {
+            target(images_.irradiance.view, colorTarget, VK_ATTACHMENT_LOAD_OP_DONT_CARE),
+            target(images_.picture.view, colorTarget, VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+        drawScreen(pipelines_.lighting, colors);
+        use(commands_, images_.irradiance, colorRead);
+    }
+
+    void drawScreen(VkPipeline pipeline, std::span<const VkRenderingAttachmentInfo> colors) {
+        beginRendering(extent_, colors, nullptr, false);
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        vkCmdDraw(commands_, 3, 1, 0, 0);
+        vkCmdEndRendering(commands_);
+    }
+
+    // [snippet: raster-light]
+    /// The sun with its cascades, whose maps are depth buffers as they are.
+    NacreLight sun(NacreShadowCascade (&cascades)[cascadeCount]) const {
+        NacreLight light{};
+        light.kind = NACRE_LIGHT_DIRECTIONAL;
+        std::memcpy(light.direction, glm::value_ptr(block_.lightDirection), sizeof(light.direction));
+        light.irradiance[0] = light.irradiance[1] = light.irradiance[2] = block_.lightDirection.w;
+        light.shadowDepthEncoding = NACRE_DEPTH_HARDWARE;
+        light.cascadeCount = cascadeCount;
+        light.cascades = cascades;
+        light.cascadeChoice = NACRE_CASCADE_BY_VIEW_DEPTH;
+        for (std::uint32_t i = 0; i < cascadeCount; ++i) {
+            std::memcpy(cascades[i].clipFromWorld, glm::value_ptr(block_.shadowClipFromWorld[i]), sizeof(glm::mat4));
+            cascades[i].layer = i;
+            cascades[i].farDepth = block_.cascadeEnds[static_cast<int>(i)];
+        }
+        return light;
+    }
+    // [end]
+
+    // [snippet: raster-frame]
+    void drawSubsurface(std::uint32_t index) {
+        // Writing waits for what the frame before read; the contents are not needed any more.
+        use(commands_, images_.scattered, computeWrite, true);
+        use(commands_, images_.transmitted, computeWrite, true);
+        use(commands_, images_.composed, computeWrite, true);
+        check(context_.beginFrame(index)); // its fence has been waited for
+
+        NacreScatterInfo scatter{};
+        std::memcpy(scatter.view.clipFromView, glm::value_ptr(block_.clipFromView), sizeof(glm::mat4));
+        std::memcpy(scatter.view.viewFromWorld, glm::value_ptr(block_.viewFromWorld), sizeof(glm::mat4));
+        scatter.view.depthEncoding = NACRE_DEPTH_HARDWARE;
+        scatter.frame = index;
+        scatter.irradiance = effectImage(images_.irradiance);
+        scatter.depth = effectImage(images_.depth);
+        scatter.materialId = scatter.depth;
+        scatter.materialId.view = images_.depth.stencilView;
+        scatter.scattered = effectImage(images_.scattered);
+        check(context_.cmdScatter(commands_, scatter));
+
+        NacreShadowCascade cascades[cascadeCount]{};
+        const NacreLight light = sun(cascades);
+        const NacreImage shadowMap = effectImage(images_.shadowMap);
+        NacreTransmitInfo transmit{};
+        transmit.view = scatter.view;
+        transmit.frame = index;
+        transmit.depth = scatter.depth;
+        transmit.materialId = scatter.materialId;
+        transmit.normal = effectImage(images_.normal);
+        transmit.lightCount = 1;
+        transmit.lights = &light;
+        transmit.shadowMapCount = 1;
+        transmit.shadowMaps = &shadowMap;
+        transmit.transmitted = effectImage(images_.transmitted);
+        check(context_.cmdTransmit(commands_, transmit));
+
+        use(commands_, images_.scattered, generalRead);
+        use(commands_, images_.transmitted, generalRead);
+        NacreComposeInfo compose{};
+        compose.frame = index;
+        compose.materialId = scatter.materialId;
+        compose.scattered = effectImage(images_.scattered);
+        compose.transmitted = effectImage(images_.transmitted);
+        compose.albedo = effectImage(images_.albedo);
+        compose.composed = effectImage(images_.composed);
+        check(context_.cmdCompose(commands_, compose));
+        use(commands_, images_.composed, generalRead);
+    }
+    // [end]
+
+    void addSubsurface() {
+        use(commands_, images_.picture, colorTarget);
+        const VkRenderingAttachmentInfo colors[] = {
+            target(images_.picture.view, colorTarget, VK_ATTACHMENT_LOAD_OP_LOAD)};
+        drawScreen(pipelines_.add, colors);
+    }
+
+    void copyPicture() {
+        use(commands_, images_.picture, copySource);
+        VkMemoryBarrier2 reused{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2}; // the frame before wrote the same buffer
+        reused.srcStageMask = reused.dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+        reused.srcAccessMask = reused.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &reused;
+        vkCmdPipelineBarrier2(commands_, &dependency);
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {extent_.width, extent_.height, 1};
+        vkCmdCopyImageToBuffer(commands_, images_.picture.image, copySource.layout, pixels_.buffer, 1, &region);
+    }
+
+    NacreRequirements requirements_;
+    Device device_;
+    nacre::Context context_;
+    Pipelines pipelines_{};
+    Images images_;
+    Buffer pixels_;
+    VkExtent2D extent_{};
+    FrameBlock block_{};
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const int framesInFlight = argc > 2 ? std::atoi(argv[2]) : 2;
+        if (framesInFlight < 1 || framesInFlight > 8) {
+            throw std::runtime_error("frames in flight must be in [1, 8]");
+        }
+        Renderer renderer(static_cast<std::uint32_t>(framesInFlight));
+        for (int frame = 0; frame < frameCount; ++frame) {
+            if (frame == frameCount / 2) {
+                renderer.resize(sizes[1]);
+            }
+            renderer.draw(frame);
+        }
+        renderer.save(argc > 1 ? argv[1] : "deferred.png");
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "deferred: %s\n", error.what());
+        return 1;
+    }
+}
