@@ -219,6 +219,7 @@ Compose::Settings Frame::Implementation::look() const {
             .scatter = settings.scatter,
             .scatteredHasAlbedo = subsurface.scatteredHasAlbedo(),
             .transmit = settings.transmit,
+            .hasThickness = scene.hasThickness(),
             .exposure = exposure,
             .samples = settings.samples,
             .dither = settings.dither};

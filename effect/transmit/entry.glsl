@@ -24,6 +24,7 @@ struct EntryFrame {
 // 4x4 points of the lit surface, their distance from the receiver, and how much they count: 0 where they are no entry.
 struct LitPoints {
     mat4 x, y, z, distance, weight;
+    float count;    // sum of the weights
     float shadowed; // [0, 1] share of them that lie on another body, which throws a shadow
 };
 
@@ -83,11 +84,22 @@ void taps(float coordinate, float spacing, float last, out vec4 texels, out vec4
     texels = clamp(texels, 0.0, last);
 }
 
+// The largest of 4x4 depths at which there is something, -nothingThere where there is nothing.
+float deepestEntry(MapDepths map) {
+    vec4 deepest = vec4(-nothingThere);
+    for (int row = 0; row < 4; ++row) {
+        vec4 depth = map.depth[row];
+        deepest = max(deepest, mix(depth, vec4(-nothingThere), step(0.5 * nothingThere, depth)));
+    }
+    return max(max(deepest.x, deepest.y), max(deepest.z, deepest.w));
+}
+
 // `columns`, `rows`: texels from where the receiver falls in the map. `farthest`: mm, of the receiver from its entry.
 // `inmost`: mm, how far beneath the receiver's plane its own body reaches.
 LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, vec4 columnWeights, vec4 rowWeights,
                     float farthest, float inmost) {
     LitPoints points;
+    points.count = 0.0;
     points.shadowed = 0.0;
     for (int row = 0; row < 4; ++row) {
         vec4 perspective = 1.0 / max(1.0 - columns * frame.taper.x - rows[row] * frame.taper.y, 0.01);
@@ -107,6 +119,7 @@ LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, ve
         vec4 isOther = 1.0 - step(beneath, vec4(inmost));
         vec4 weight = columnWeights * rowWeights[row];
         points.weight[row] = weight * map.isEntry[row] * step(points.distance[row], vec4(farthest)) * (1.0 - isOther);
+        points.count += dot(points.weight[row], vec4(1.0));
         points.shadowed += dot(weight, isOther);
     }
     return points;
@@ -114,7 +127,6 @@ LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, ve
 
 // By least squares. Where the points lie on a line or are few, it faces the light as far as they do not tell.
 EntryPlane entryPlane(LitPoints points, vec3 normal) {
-    float sum = 0.0;
     vec3 first = vec3(0.0);  // moments: x, y, z
     vec3 square = vec3(0.0); // xx, xy, yy
     vec3 height = vec3(0.0); // xz, yz, zz
@@ -122,12 +134,11 @@ EntryPlane entryPlane(LitPoints points, vec3 normal) {
         vec4 x = points.x[row], y = points.y[row], z = points.z[row];
         vec4 weight = points.weight[row];
         vec4 weightX = weight * x, weightY = weight * y;
-        sum += dot(weight, vec4(1.0));
         first += vec3(dot(weightX, vec4(1.0)), dot(weightY, vec4(1.0)), dot(weight, z));
         square += vec3(dot(weightX, x), dot(weightX, y), dot(weightY, y));
         height += vec3(dot(weightX, z), dot(weightY, z), dot(weight * z, z));
     }
-    float scale = 1.0 / max(sum, 1e-6);
+    float scale = 1.0 / max(points.count, 1e-6);
     vec3 mean = scale * first;
     float rounding = 1e-5 * scale * (square.x + square.z);
     square = scale * square - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
@@ -142,7 +153,7 @@ EntryPlane entryPlane(LitPoints points, vec3 normal) {
     plane.opposite = plane.cosine * (dot(plane.slope, normal.xy) - normal.z);
     float off = max(height.z - dot(plane.slope, height.xy), 0.0);
     float across = plane.height * plane.cosine;
-    plane.deviation = sum > 0.0 ? sqrt(off + across * across) : opaque;
+    plane.deviation = points.count > 0.0 ? sqrt(off + across * across) : opaque;
     return plane;
 }
 

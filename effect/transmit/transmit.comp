@@ -186,32 +186,44 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     taps(point.texel.x, spacing, light.shadowSize.x - 1.0, columns, columnWeights);
     taps(point.texel.y, spacing, light.shadowSize.y - 1.0, rows, rowWeights);
     MapDepths map = depthsAlongLight(light, columns, rows, point.projection.layer);
-    float texel = point.texelSize * view.mmPerUnit;
-    float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
-    bool isAuthored = receiver.authored > 0.0;
-    bool isBounded = isAuthored;
+    bool isBounded = receiver.authored > 0.0;
     if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
         map.depth -= receiver.authored;
         isBounded = false;
     }
-    float inmost = isBounded ? 2.0 * receiver.authored + (bodyTexels + bodySpacings * spacing) * texel : opaque;
     EntryFrame frame = entryFrame(light, point, receiver.normal, toLight);
-    LitPoints points = litPoints(frame, map, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
-                                 rowWeights, farthest, inmost);
-    if (hasFlag(flagThesisTransmittance)) {
-        return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
-    }
-    EntryPlane plane = entryPlane(points, frame.normal);
+    float texel = point.texelSize * view.mmPerUnit;
+    float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
     float most = isBounded ? receiver.authored : opaque;
-    mat4 thickness = entryThickness(points, plane, min(abs(plane.height) * plane.cosine, most));
-    vec3 through = transmittance(receiver.material, thickness, columnWeights, rowWeights);
-    through *= plane.cosine * entryShare(plane.opposite);
-    float certainty = certaintyOf(receiver, point.texelSize, plane.deviation);
-    float authored = isAuthored ? cosine * (1.0 - points.shadowed) : 0.0;
-    vec3 otherwise = authored * transmittance(receiver.material, receiver.authored);
-    bool hasEntry = plane.deviation < opaque;
-    float along = hasEntry ? min(max(plane.height, 0.0), most) : authored > 0.0 ? receiver.authored : -1.0;
-    return vec4(mix(otherwise, through, certainty), along);
+    float inmost = 2.0 * most + (bodyTexels + bodySpacings * spacing) * texel;
+    float deepest = deepestEntry(map);
+    bool isCovered = deepest > -nothingThere;
+    float nearest = frame.depth - deepest;
+    vec4 result = vec4(0.0, 0.0, 0.0, isCovered ? clamp(nearest, 0.0, most) : isBounded ? most : -1.0);
+    float deviation = opaque;
+    float shadowed = isCovered ? 1.0 : 0.0;
+    bool isThesis = hasFlag(flagThesisTransmittance);
+    for (bool shines = nearest <= farthest || isThesis; shines; shines = false) { // else the body is thick, as most are
+        LitPoints points = litPoints(frame, map, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
+                                     rowWeights, farthest, inmost);
+        if (isThesis) {
+            return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
+        }
+        EntryPlane plane = entryPlane(points, frame.normal);
+        mat4 thickness = entryThickness(points, plane, min(abs(plane.height) * plane.cosine, most));
+        result.rgb = transmittance(receiver.material, thickness, columnWeights, rowWeights);
+        result.rgb *= plane.cosine * entryShare(plane.opposite);
+        result.w = points.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
+        deviation = plane.deviation;
+        shadowed = points.shadowed;
+    }
+    float certainty = certaintyOf(receiver, point.texelSize, deviation);
+    float authored = receiver.authored > 0.0 ? cosine * (1.0 - certainty) * (1.0 - shadowed) : 0.0;
+    result.rgb *= certainty;
+    for (bool tells = authored <= 0.0; !tells; tells = true) { // the map does not
+        result.rgb += authored * transmittance(receiver.material, receiver.authored);
+    }
+    return result;
 }
 
 #include "shadow_cascades.glsl"

@@ -26,14 +26,42 @@ layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // written where 
 layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
 layout(set = 0, binding = 11) uniform sampler2D environmentImage;
 layout(set = 0, binding = 12) uniform sampler2D occlusionImage;
-layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D outRadiance;
+layout(set = 0, binding = 13) uniform sampler2D thicknessImage;
+layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D outRadiance;
 layout(push_constant) uniform Push {
     uint scatter;
     uint scatteredHasAlbedo;
     uint transmit;
+    uint hasThickness;
 };
 
 #include "camera_rays.glsl"
+
+/// Transmittance of a slab.
+vec3 throughSlab(uint material, float millimetres) {
+    float middle = transmissions[material].share.y;
+    float place = float(throughSteps) * middle / (middle + millimetres);
+    uint first = min(uint(place), throughSteps - 1u);
+    return mix(transmissions[material].through[first].rgb, transmissions[material].through[first + 1u].rgb,
+               place - float(first));
+}
+
+/// What the surroundings' light gains by coming through: what arrives behind comes in place of what arrives in front, which
+/// is in the scattered light. So surroundings that are even change nothing. What occludes this side stands for what occludes
+/// the other.
+vec3 surroundingsThrough(ivec2 pixel, uint material, float share) {
+    float millimetres = hasThickness != 0u && material != 0u ? texelFetch(thicknessImage, pixel, 0).r : 0.0;
+    if (share <= 0.0 && millimetres <= 0.0) {
+        return vec3(0.0);
+    }
+    vec3 normal = texelFetch(shadingNormalImage, pixel, 0).xyz;
+    vec3 behind = environmentIrradiance(environment, -normal);
+    float visibility = texelFetch(occlusionImage, pixel, 0).r;
+    if (share > 0.0) { // a thin wall, which compose has taken its share from
+        return share * visibility * behind;
+    }
+    return throughSlab(material, millimetres) * visibility * (behind - environmentIrradiance(environment, normal));
+}
 
 vec3 diffuseRadiance(ivec2 pixel) {
     vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
@@ -47,14 +75,11 @@ vec3 diffuseRadiance(ivec2 pixel) {
         return reflected / pi;
     }
     vec3 transmitted = texelFetch(transmittedImage, pixel, 0).rgb;
-    TransmissionConstants transmission = transmissions[material];
-    float share = transmission.share.x;
-    if (share > 0.0) { // a thin wall; what occludes this side stands for what occludes the other
-        vec3 behind = -texelFetch(shadingNormalImage, pixel, 0).xyz;
-        transmitted += share * texelFetch(occlusionImage, pixel, 0).r * environmentIrradiance(environment, behind);
-    }
-    vec3 color = transmission.color.w > 0.0 ? transmission.color.rgb : albedo;
-    return ((1.0 - share) * reflected + color * transmitted) / pi;
+    float share = transmissions[material].share.x;
+    transmitted += surroundingsThrough(pixel, material, share);
+    vec4 color = transmissions[material].color;
+    vec3 through = (color.w > 0.0 ? color.rgb : albedo) * transmitted;
+    return max((1.0 - share) * reflected + through, 0.0) / pi;
 }
 
 void main() {

@@ -25,6 +25,8 @@ public:
         bool scatter = true;
         bool scatteredHasAlbedo = false; ///< Subsurface::scatteredHasAlbedo
         bool transmit = true;
+        bool hasThickness =
+            false; ///< whether a subsurface body has an authored thickness, through which surroundings shine
         float exposure = 1;
         std::uint32_t samples = 1; ///< per axis and pixel of the picture
         bool dither = false;

@@ -257,6 +257,12 @@ std::vector<vk::VertexInputAttributeDescription> GpuScene::vertexAttributes() {
          .offset = offsetof(VertexAttributes, color)}};
 }
 
+bool GpuScene::hasThickness() const {
+    return std::ranges::any_of(surfaces_, [](const scene::Surface& surface) {
+        return surface.material != scene::none && surface.thickness >= 0;
+    });
+}
+
 void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout, vk::Pipeline opaque,
                            vk::Pipeline masked, std::uint32_t shadowLayer, Cull cull) const {
     commandBuffer.bindVertexBuffers(0, {positions_.handle(), attributes_.handle()}, {0, 0});

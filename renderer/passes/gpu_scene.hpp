@@ -35,6 +35,8 @@ public:
     void beginFrame(std::uint32_t frame) { constants_.write(frame, std::as_bytes(std::span(surfaceConstants_))); }
     /// Counts the changes of what a shadow map sees: here of the surfaces that have holes.
     std::uint64_t casterVersion() const { return casterVersion_; }
+    /// Whether a surface with a subsurface material has an authored thickness.
+    bool hasThickness() const;
     /// shared::SurfaceConstants, one a surface.
     const FrameBuffer& surfaces() const { return constants_; }
     /// Set 1 of every pipeline that draws the scene: base colour, normal, metallic-roughness, thickness,

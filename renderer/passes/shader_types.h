@@ -76,10 +76,14 @@ struct ShadowLayer {
     vec4 direction; ///< w: 1 when depth is along the direction, 0 when it is the distance from the origin
 };
 
+/// Steps of TransmissionConstants::through.
+NACRE_CONSTANT throughSteps = 16;
+
 /// How a material's diffuse light divides between the two sides of a surface.
 struct TransmissionConstants {
     vec4 color; ///< of what comes through; w: 1, or 0 for the albedo
-    vec4 share; ///< x: f of a thin wall, 0 = a closed body
+    vec4 share; ///< x: f of a thin wall, 0 = a closed body; y: mm, thickness in the middle of `through`
+    vec4 through[throughSteps + 1]; ///< transmittance of a slab of y / (y + thickness) · throughSteps, times translucency
 };
 
 /// The environment's diffuse irradiance: nine spherical harmonics, cosine lobe folded in.
@@ -133,7 +137,7 @@ static_assert(sizeof(SurfaceConstants) == 96);
 static_assert(sizeof(DrawConstants) == 80);
 static_assert(sizeof(LightConstants) == 144);
 static_assert(sizeof(ShadowLayer) == 96);
-static_assert(sizeof(TransmissionConstants) == 32);
+static_assert(sizeof(TransmissionConstants) == 32 + 16 * (throughSteps + 1));
 static_assert(sizeof(EnvironmentConstants) == 160);
 } // namespace nacre::renderer::shared
 #endif

@@ -37,12 +37,28 @@ NacreImage asOutput(const Image& image) {
     return effectImage(image, usage::computeWrite);
 }
 
+/// What comes through slabs, over nearness: 1 at no thickness, ½ where half of the widest channel's light does, 0 far
+/// away.
+void setThrough(shared::TransmissionConstants& result, const Material& material) {
+    const auto profile = makeProfile(material);
+    const double middle = std::max(profile->quantileRadius(0.5), 1e-6);
+    result.share.y = static_cast<float>(middle);
+    for (unsigned step = 1; step <= shared::throughSteps; ++step) {
+        const double thickness = middle * (static_cast<double>(shared::throughSteps) / step - 1);
+        const auto share = [&](int channel) {
+            return static_cast<float>(material.translucency * profile->slabTransmittance(channel, thickness));
+        };
+        result.through[step] = {share(0), share(1), share(2), 0};
+    }
+}
+
 shared::TransmissionConstants makeTransmission(const Material& material) {
     shared::TransmissionConstants result{};
     if (const auto& color = material.diffuseTransmissionColor) {
         result.color = glm::vec4((*color)[0], (*color)[1], (*color)[2], 1);
     }
     result.share.x = static_cast<float>(material.diffuseTransmission);
+    setThrough(result, material);
     return result;
 }
 

@@ -87,6 +87,9 @@ TEST_F(ThroughLight, WallsShadowBodiesOfAuthoredThickness) {
                 add(scene, box({1.2f, 1.2f, 0.1f}), at({0, 0, -0.3f}));
             }
             for (const scene::Light& light : backLights()) {
+                if (!wall && light.kind != scene::LightKind::Directional) {
+                    continue;
+                }
                 scene.lights = {light};
                 const Seen seen = transmitted(scene);
                 if (wall) {
@@ -133,6 +136,9 @@ TEST_F(ThroughLight, BackSidesAreNoEntry) {
         scene.instances[0].transform = glm::scale(glm::mat4(1), {mirrored ? -1.0f : 1.0f, 1, 1});
         for (const scene::Light& light :
              {directional({0, 1, -0.2f}), spot({0, -1, 0.2f}, {0, 1, -0.2f}), point({0, -1, 0.2f})}) {
+            if (mirrored && light.kind != scene::LightKind::Directional) {
+                continue;
+            }
             scene.lights = {light};
             const Seen seen = transmitted(scene);
             float crown = 0;
@@ -178,6 +184,37 @@ TEST_F(ThroughLight, WideConesAreShadowedToTheirRim) {
         const Pixels shadowed = render(scene, plainSettings()).read(Output::Irradiance);
         EXPECT_EQ(tests::at(shadowed, column, 45), 0) << degrees;
         EXPECT_GT(tests::at(shadowed, 90, 45), 0) << degrees;
+    }
+}
+
+// Surroundings that are bright above shine through a slab that is seen from below, as far as its thickness lets them.
+TEST_F(ThroughLight, SurroundingsShineThroughLocalThickness) {
+    scene::Scene scene = bodyScene(box({0.2f, 0.001f, 0.2f}), 0.1f, "skin-burley");
+    scene.surfaces[0].baseColor = glm::vec4(1);
+    scene.surfaces[0].specular = 0;
+    scene.environment = {};
+    scene.environment.zenith = glm::vec3(2);
+    scene.environment.horizon = scene.environment.ground = glm::vec3(0.5f);
+    scene.cameras[0].up = {0, 0, -1};
+    scene.cameras[0].position = {0, 2, 0};
+    const float above = tests::at(render(scene, plainSettings()).read(Output::Irradiance), 80, 45);
+    scene.cameras[0].position = {0, -2, 0};
+    renderer::RenderSettings settings = plainSettings();
+    settings.scatter = settings.transmit = true;
+    const auto profile = makeProfile(scene.materials[0]);
+    for (const float thickness : {-1.0f, 0.3f, 1.0f}) {
+        scene.surfaces[0].thickness = thickness;
+        const renderer::Offscreen renderer = render(scene, settings);
+        const Pixels radiance = renderer.read(Output::Radiance);
+        const float below = tests::at(renderer.read(Output::Irradiance), 80, 45);
+        EXPECT_GT(above, 1.2f * below);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double through = profile->slabTransmittance(channel, static_cast<double>(thickness));
+            const float share = thickness < 0 ? 0.0f : static_cast<float>(through);
+            EXPECT_NEAR(pi * tests::at(radiance, 80, 45, static_cast<std::size_t>(channel)),
+                        (1 - share) * below + share * above, 0.02f * above)
+                << thickness << " mm, channel " << channel;
+        }
     }
 }
 
