@@ -206,26 +206,27 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     taps(point.texel.x, spacing, light.shadowSize.x - 1.0, columns, columnWeights);
     taps(point.texel.y, spacing, light.shadowSize.y - 1.0, rows, rowWeights);
     mat4 stored = storedDepths(light.shadowMap, ivec4(columns), ivec4(rows), point.projection.layer);
-    EntryFrame frame = entryFrame(light, point, receiver.normal, toLight);
+    float depth = receiverDepth(light, point, receiver.normal);
     float texel = point.texelSize * view.mmPerUnit;
     float range = light.direction.w * view.mmPerUnit;
     float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
     float most = receiver.authored > 0.0 ? receiver.authored : opaque;
     float inmost = 2.0 * most + (bodyTexels + bodySpacings * spacing) * texel;
     float deepest = deepestEntry(stored);
-    float nearest = frame.depth - deepest * range;
+    float nearest = depth - deepest * range;
     vec4 result = vec4(0.0, 0.0, 0.0, clamp(nearest, 0.0, most));
     float deviation = opaque;
     float shadowed = deepest > 0.0 ? 1.0 : 0.0;
     bool isThesis = hasFlag(flagThesisTransmittance);
     for (bool shines = nearest <= farthest || isThesis; shines; shines = false) { // else the body is thick, as most are
+        EntryFrame frame = entryFrame(light, point, receiver.normal, toLight, depth);
         LitPoints points = litPoints(frame, stored, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y,
                                      columnWeights, rowWeights, range, farthest, inmost);
         if (isThesis) {
             return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
         }
-        EntryPlane plane = entryPlane(points, frame.normal);
-        mat4 thickness = entryThickness(points, plane, min(abs(plane.height) * plane.cosine, most));
+        EntryPlane plane = entryPlane(points, frame.normal, spacing * texel);
+        mat4 thickness = entryThickness(points, plane, most);
         result.rgb = transmittance(receiver.material, thickness, columnWeights, rowWeights);
         result.rgb *= plane.cosine * entryShare(plane.opposite);
         result.w = points.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
