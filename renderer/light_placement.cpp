@@ -19,6 +19,10 @@ namespace {
 
 /// Texels that the shadow and thickness filters reach beyond the map's content.
 constexpr float filterMargin = 6;
+/// [mm] How far around a point transmit looks for where light enters, and so how far maps reach beyond their content:
+/// the radius outside of which a quarter of the light leaves, of skin and more. But no farther than the content is
+/// wide.
+constexpr float entryMargin = 4;
 /// A spot's map covers at most this half angle; a wider cone has the six maps of a point light.
 constexpr float largestHalfAngle = 75 * std::numbers::pi_v<float> / 180;
 /// Near plane of perspective maps over their range. Reversed 32-bit float depth is as exact at any distance from it, so
@@ -135,7 +139,8 @@ void placeDirectional(NacreLight& light, std::span<const Body> bodies, const Rim
     std::ranges::copy_if(all, std::back_inserter(casters),
                          [&](const Body* body) { return !shadowsNothing(*body, direction); });
     const Square square = fitSquare(casters.empty() ? all : casters, direction);
-    const float half = std::max((square.half + rim.length) * (1 + rim.share), 1e-6f);
+    const float content = square.half + std::min(rim.length, square.half);
+    const float half = std::max(content * (1 + rim.share), 1e-6f);
     const Interval depth = extent(all, direction);
     const float slack = std::max(0.01f * depth.length(), 1e-6f);
     const glm::vec3 right = square.axes.right / half;
@@ -172,19 +177,6 @@ constexpr std::array<std::array<glm::vec3, 3>, 6> cubeFaces{{{{{0, 0, -1}, {0, -
                                                              {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}},
                                                              {{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}},
                                                              {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}}};
-
-/// [scene units] The radius outside of which a quarter of the light of the scene's widest profile leaves: transmit
-/// looks as far around a point for where light enters.
-float largestSpread(const scene::Scene& scene) {
-    double largest = 0;
-    for (const scene::Instance& instance : scene.instances) {
-        const std::uint32_t material = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material;
-        if (material != scene::none) {
-            largest = std::max(largest, makeProfile(scene.materials.at(material))->quantileRadius(0.75));
-        }
-    }
-    return static_cast<float>(largest / (1000 * scene.metersPerUnit));
-}
 
 /// A little more than to the farthest vertex.
 float reach(std::span<const Body> bodies, const glm::vec3& position) {
@@ -276,8 +268,7 @@ NacreLightKind convert(const scene::Light& light) {
 
 LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMapSize)
     : metersPerUnit_(static_cast<float>(scene.metersPerUnit)),
-      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))),
-      spread_(largestSpread(scene)) {
+      margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
     for (const scene::Instance& instance : scene.instances) {
         Body body{.points = worldPoints(scene, instance)};
         body.shinesThrough = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material != scene::none;
@@ -311,7 +302,7 @@ LightPlacement::Placed LightPlacement::placeAnew(const scene::Light& light) cons
     setShadowClip(placed, glm::mat4(1));
     if (light.castsShadow) {
         placed.shadowMap = 0;
-        result.layers = placeShadowMap(placed, bodies_, {margin_, spread_});
+        result.layers = placeShadowMap(placed, bodies_, {margin_, 1e-3f * entryMargin / metersPerUnit_});
     }
     return result;
 }

@@ -63,7 +63,6 @@ private:
 
     float metersPerUnit_;
     float margin_; ///< of the maps, as a share of their half side
-    float spread_; ///< of the maps, scene units
     std::vector<Body> bodies_;
     std::vector<Placed> placed_;
     LightSet set_;

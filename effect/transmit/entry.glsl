@@ -37,7 +37,13 @@ struct EntryPlane {
     float opposite;  // [-1, 1] cosine between its normal and the receiver's, turned round
 };
 
-EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec3 toLight) {
+// [mm] Linear depth of the receiver.
+float receiverDepth(LightParameters light, ShadowPoint point, vec3 normal) {
+    vec3 offset = (point.offset + normal * point.moved) * view.mmPerUnit;
+    return light.kind == lightDirectional ? dot(offset, light.direction.xyz) : length(offset);
+}
+
+EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec3 toLight, float depth) {
     vec3 gradientX = point.projection.x.xyz - point.texel.x * point.projection.w.xyz; // of texel · w
     vec3 gradientY = point.projection.y.xyz - point.texel.y * point.projection.w.xyz;
     vec3 alongX = cross(gradientY, toLight);
@@ -45,16 +51,14 @@ EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec
     float scale = point.w * view.mmPerUnit / dot(gradientX, alongX);
     vec3 axisX = normalize(alongX);
     vec3 axisY = cross(toLight, axisX);
-    bool isDirectional = light.kind == lightDirectional;
     EntryFrame frame;
     frame.stepX = vec2(scale * length(alongX), 0.0);
     frame.stepY = scale * vec2(dot(alongY, axisX), dot(alongY, axisY));
     frame.taper = vec2(dot(point.projection.w.xyz, alongX), dot(point.projection.w.xyz, alongY)) / dot(gradientX, alongX);
     frame.normal = vec3(dot(normal, axisX), dot(normal, axisY), dot(normal, toLight));
     frame.moved = -point.moved * view.mmPerUnit * frame.normal.xy;
-    vec3 offset = (point.offset + normal * point.moved) * view.mmPerUnit;
-    frame.depth = isDirectional ? dot(offset, light.direction.xyz) : length(offset);
-    frame.curvature = isDirectional ? 0.0 : 1.0 / frame.depth;
+    frame.depth = depth;
+    frame.curvature = light.kind == lightDirectional ? 0.0 : 1.0 / depth;
     return frame;
 }
 
@@ -125,20 +129,24 @@ LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, ve
     return points;
 }
 
-// By least squares. Where the points lie on a line or are few, it faces the light as far as they do not tell.
-EntryPlane entryPlane(LitPoints points, vec3 normal) {
+// By least squares, in which near points count most. Where the points lie on a line or are few, it faces the light as far as
+// they do not tell. `spacing`: mm between the points.
+EntryPlane entryPlane(LitPoints points, vec3 normal, float spacing) {
+    float sum = 0.0;
     vec3 first = vec3(0.0);  // moments: x, y, z
     vec3 square = vec3(0.0); // xx, xy, yy
     vec3 height = vec3(0.0); // xz, yz, zz
     for (int row = 0; row < 4; ++row) {
         vec4 x = points.x[row], y = points.y[row], z = points.z[row];
-        vec4 weight = points.weight[row];
+        vec4 near = spacing * spacing / (spacing * spacing + points.distance[row] * points.distance[row]);
+        vec4 weight = points.weight[row] * near * near;
         vec4 weightX = weight * x, weightY = weight * y;
+        sum += dot(weight, vec4(1.0));
         first += vec3(dot(weightX, vec4(1.0)), dot(weightY, vec4(1.0)), dot(weight, z));
         square += vec3(dot(weightX, x), dot(weightX, y), dot(weightY, y));
         height += vec3(dot(weightX, z), dot(weightY, z), dot(weight * z, z));
     }
-    float scale = 1.0 / max(points.count, 1e-6);
+    float scale = 1.0 / max(sum, 1e-12);
     vec3 mean = scale * first;
     float rounding = 1e-5 * scale * (square.x + square.z);
     square = scale * square - vec3(mean.x * mean.x, mean.x * mean.y, mean.y * mean.y);
@@ -158,14 +166,18 @@ EntryPlane entryPlane(LitPoints points, vec3 normal) {
 }
 
 // Arguments of the transmittance over the points: how far the receiver is from the plane, and how much nearer or farther
-// than the plane each point is.
-mat4 entryThickness(LitPoints points, EntryPlane plane, float across) {
+// than the plane each point is; but no nearer than it is across the plane.
+// `most`: mm, authored.
+mat4 entryThickness(LitPoints points, EntryPlane plane, float most) {
+    float across = min(abs(plane.height) * plane.cosine, most);
     mat4 thickness;
     for (int row = 0; row < 4; ++row) {
         vec4 x = points.x[row], y = points.y[row];
-        vec4 z = plane.height + plane.slope.x * x + plane.slope.y * y;
+        vec4 lean = plane.slope.x * x + plane.slope.y * y;
+        vec4 z = plane.height + lean;
         vec4 excess = points.distance[row] - sqrt(x * x + y * y + z * z);
-        thickness[row] = mix(vec4(opaque), max(across + excess, 0.0), step(vec4(1e-9), points.weight[row]));
+        vec4 own = min(abs(points.z[row] - lean) * plane.cosine, most);
+        thickness[row] = mix(vec4(opaque), max(across + excess, own), step(vec4(1e-9), points.weight[row]));
     }
     return thickness;
 }

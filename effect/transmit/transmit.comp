@@ -191,26 +191,27 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
         map.depth -= receiver.authored;
         isBounded = false;
     }
-    EntryFrame frame = entryFrame(light, point, receiver.normal, toLight);
+    float depth = receiverDepth(light, point, receiver.normal);
     float texel = point.texelSize * view.mmPerUnit;
     float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
     float most = isBounded ? receiver.authored : opaque;
     float inmost = 2.0 * most + (bodyTexels + bodySpacings * spacing) * texel;
     float deepest = deepestEntry(map);
     bool isCovered = deepest > -nothingThere;
-    float nearest = frame.depth - deepest;
+    float nearest = depth - deepest;
     vec4 result = vec4(0.0, 0.0, 0.0, isCovered ? clamp(nearest, 0.0, most) : isBounded ? most : -1.0);
     float deviation = opaque;
     float shadowed = isCovered ? 1.0 : 0.0;
     bool isThesis = hasFlag(flagThesisTransmittance);
     for (bool shines = nearest <= farthest || isThesis; shines; shines = false) { // else the body is thick, as most are
+        EntryFrame frame = entryFrame(light, point, receiver.normal, toLight, depth);
         LitPoints points = litPoints(frame, map, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
                                      rowWeights, farthest, inmost);
         if (isThesis) {
             return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
         }
-        EntryPlane plane = entryPlane(points, frame.normal);
-        mat4 thickness = entryThickness(points, plane, min(abs(plane.height) * plane.cosine, most));
+        EntryPlane plane = entryPlane(points, frame.normal, spacing * texel);
+        mat4 thickness = entryThickness(points, plane, most);
         result.rgb = transmittance(receiver.material, thickness, columnWeights, rowWeights);
         result.rgb *= plane.cosine * entryShare(plane.opposite);
         result.w = points.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
