@@ -282,7 +282,7 @@ TEST_F(PartsTest, WrongArgumentsAreNamedAndWriteNothing) {
         {[&](auto* m, void* to) { return nacreFillLights(&noMap, m, size, to); }, NACRE_ERROR_INVALID_ARGUMENT,
          "NacreTransmitInfo::lights[0].shadowMap is 0"},
         {[&](auto* m, void* to) { return nacreFillLights(&transmit, m, 127, to); }, NACRE_ERROR_INVALID_ARGUMENT,
-         "size is 127, the block takes 128 bytes"},
+         "size is 127, the block takes 240 bytes"},
     };
     const std::vector<std::byte> before(size, std::byte{0x5a});
     for (const Case& one : cases) {
