@@ -1,5 +1,5 @@
 // The resolve of docs/integration-raster.md: images of four samples a pixel, resolved by id, give the light that a
-// picture of four times as many pixels a side has in the mean; no halo at silhouettes, and a constant field stays
+// picture of four times as many pixels a side has at these samples; no halo at silhouettes, and a constant field stays
 // constant.
 #include "tests/gpu/support/effect.hpp"
 
@@ -73,7 +73,8 @@ protected:
         input.depth[index] = seen.depth;
         input.materialId[index] = seen.id;
     }
-    /// The mean of a picture with fine² pixels a pixel, each of one surface.
+    /// Of a picture with fine² pixels a pixel, each of one surface, the mean of the four that lie where the samples lie: what
+    /// an effect that scattered every sample by itself would give.
     std::vector<double> supersampled(bool isConstant) {
         constexpr std::uint32_t size = side * fine;
         ScatterInput input =
@@ -83,8 +84,12 @@ protected:
         }
         const std::vector<Float4> picture = effect_->scatter(input, NACRE_TECHNIQUE_SEPARABLE);
         std::vector<double> mean(side * side);
-        for (std::uint32_t i = 0; i < size * size; ++i) {
-            mean[i / size / fine * side + i % size / fine] += picture[i][0] / (fine * fine);
+        for (std::uint32_t i = 0; i < side * side; ++i) {
+            for (const auto& place : places) {
+                const auto x = static_cast<std::uint32_t>((i % side + place[0]) * fine);
+                const auto y = static_cast<std::uint32_t>((i / side + place[1]) * fine);
+                mean[i] += 0.25 * picture[y * size + x][0];
+            }
         }
         return mean;
     }
