@@ -73,8 +73,8 @@ protected:
         input.depth[index] = seen.depth;
         input.materialId[index] = seen.id;
     }
-    /// Of a picture with fine² pixels a pixel, each of one surface, the mean of the four that lie where the samples lie: what
-    /// an effect that scattered every sample by itself would give.
+    /// Of a picture with fine² pixels a pixel, each of one surface, the mean of the four that lie where the samples
+    /// lie: what an effect that scattered every sample by itself would give.
     std::vector<double> supersampled(bool isConstant) {
         constexpr std::uint32_t size = side * fine;
         ScatterInput input =
@@ -148,8 +148,8 @@ TEST_F(MsaaTest, SilhouettesHaveNoHalo) {
     const auto [mostAveraged, meanAveraged] = errors(multisampled(false, false), truth);
     std::printf("error at the silhouette: by id %.4f, at most %.4f; averaged %.4f, at most %.4f\n", mean, most,
                 meanAveraged, mostAveraged);
-    EXPECT_LT(mean, 0.025);
-    EXPECT_LT(most, 0.15);
+    EXPECT_LT(mean, 0.012);
+    EXPECT_LT(most, 0.1);
     EXPECT_LT(mean, 0.7 * meanAveraged) << "averaged depth and light are worse";
 }
 
