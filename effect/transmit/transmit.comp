@@ -282,7 +282,8 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     for (bool inside = inCascades; inside; inside = false) {
         through = throughCascades(light, receiver, cosine, point);
     }
-    for (bool inside = point.inside && !inCascades; inside; inside = false) { // software devices skip it where no pixel is inside
+    // Software devices skip it where no pixel is inside.
+    for (bool inside = point.inside && !inCascades; inside; inside = false) {
         through = filteredTransmittance(light, receiver, point, cosine);
     }
     if (!point.inside && receiver.authored > 0.0) {
