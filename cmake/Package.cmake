@@ -24,13 +24,12 @@ if(NOT NACRE_INSTALL OR NACRE_DEVELOPER) # a developer build's shaders are in it
     return()
 endif()
 
-# A program in C that links the static library lacks C++'s runtime: the libraries that the C++ compiler adds by itself.
-if(NOT BUILD_SHARED_LIBS)
-    set(runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
-    list(FILTER runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
-    list(REMOVE_DUPLICATES runtime)
-    target_link_libraries(nacre_core INTERFACE ${runtime})
-endif()
+# A program in C that links a static library lacks C++'s runtime: the libraries that the C++ compiler adds by itself. core is
+# always static, and with a shared nacre what needs it are material files.
+set(runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(FILTER runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
+list(REMOVE_DUPLICATES runtime)
+target_link_libraries(nacre_core INTERFACE ${runtime})
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/nacre)
 if(NACRE_BUILD_FILES)

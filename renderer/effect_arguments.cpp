@@ -1,6 +1,6 @@
 #include "renderer/effect_arguments.hpp"
 
-#include <algorithm>
+#include "nacre/nacre_material.hpp"
 
 namespace nacre::renderer {
 
@@ -18,27 +18,7 @@ NacreImage effectImage(const Image& image) {
 }
 
 NacreMaterial effectMaterial(const Material& material, std::vector<NacreLayer>& layers) {
-    for (const Layer& layer : material.layers) {
-        NacreLayer converted{};
-        std::transform(layer.weight.begin(), layer.weight.end(), converted.weight,
-                       [](double weight) { return static_cast<float>(weight); });
-        converted.variance = static_cast<float>(layer.variance);
-        layers.push_back(converted);
-    }
-    NacreMaterial result = nacreDefaultMaterial();
-    result.layers = layers.data();
-    result.layerCount = static_cast<std::uint32_t>(layers.size());
-    if (material.meanFreePath) {
-        std::transform(material.meanFreePath->begin(), material.meanFreePath->end(), result.meanFreePath,
-                       [](double length) { return static_cast<float>(length); });
-    }
-    result.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
-    result.strength = static_cast<float>(material.strength);
-    const double through = material.diffuseTransmission > 0 ? material.diffuseTransmission : 1;
-    result.translucency = static_cast<float>(material.translucency * through);
-    result.scale = static_cast<float>(material.scale);
-    result.secondSurfaces = asksForSecondSurfaces(material);
-    return result;
+    return callMaterial(material, layers);
 }
 
 NacreContextInfo effectContextInfo(const Gpu& gpu) {

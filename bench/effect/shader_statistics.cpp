@@ -103,6 +103,9 @@ void addForms(std::vector<PassForm>& forms, const std::string& technique, const 
     if (pass.hasSeveralShadowMaps) {
         forms.push_back({technique, pass.name, prefix + "several shadow maps", spirv, Constant{0, VK_TRUE}});
     }
+    if (pass.hasGeneralLights) {
+        forms.push_back({technique, pass.name, prefix + "general lights", spirv, Constant{1, VK_TRUE}});
+    }
     if (pass.hasAlbedoOrStrength) {
         forms.push_back({technique, pass.name, prefix + "no albedo and strength 1", spirv, Constant{1, VK_FALSE}});
     }

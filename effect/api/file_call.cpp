@@ -20,8 +20,9 @@ NacreResult nacreSetMaterialFile(NacreContext context, uint32_t id, const char* 
         return refuse(messages, context ? "path is null" : "context is null", NACRE_ERROR_INVALID_ARGUMENT);
     }
     try {
-        const nacre::CallMaterial material(nacre::loadMaterial(path));
-        return nacreSetMaterials(context, id, 1, &material.value);
+        std::vector<NacreLayer> layers;
+        const NacreMaterial material = nacre::callMaterial(nacre::loadMaterial(path), layers);
+        return nacreSetMaterials(context, id, 1, &material);
     } catch (const nacre::FileError& error) {
         return refuse(messages, error.what(), NACRE_ERROR_INVALID_ARGUMENT);
     } catch (const std::bad_alloc&) {

@@ -43,8 +43,9 @@ NacreResult nacreSetPreset(NacreContext context, uint32_t id, const char* name) 
     }
     NacreResult result = NACRE_SUCCESS;
     const NacreResult found = guard(context->messageCallback, context->userData, [&] {
-        const nacre::CallMaterial material(presetOf(name));
-        result = nacreSetMaterials(context, id, 1, &material.value); // has said what is wrong
+        std::vector<NacreLayer> layers;
+        const NacreMaterial material = nacre::callMaterial(presetOf(name), layers);
+        result = nacreSetMaterials(context, id, 1, &material); // has said what is wrong
     });
     return found != NACRE_SUCCESS ? found : result;
 }

@@ -278,7 +278,8 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     for (bool inside = inCascades; inside; inside = false) {
         through = throughCascades(light, receiver, incidence.toLight, cosine, point);
     }
-    for (bool inside = point.inside && !inCascades; inside; inside = false) { // software devices skip it where no pixel is inside
+    // Software devices skip it where no pixel is inside.
+    for (bool inside = point.inside && !inCascades; inside; inside = false) {
         through = lightThrough(light, receiver, point, incidence.toLight, cosine);
     }
     if (!point.inside && receiver.authored > 0.0) {

@@ -237,7 +237,7 @@ typedef struct NacreContextInfo {
     const VkAllocationCallbacks* allocator;        /**< host allocation callbacks, copied; null = Vulkan's own */
     VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none. Compiling bank may take seconds; from a cache
                                     that has its pipelines, milliseconds (docs/integration.md has figures) */
-    VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area, of which a scissor leaves its own; see nacreResize */
+    VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area, or scissor where one is given; see nacreResize */
     uint32_t techniques;       /**< bits 1u << NacreTechnique: those the context is made for; 0 = all. Fewer techniques
                                     take less memory per pixel and per material (see nacreGetScatterCost) */
     uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
@@ -311,7 +311,8 @@ typedef struct NacreImage {
     VkImageView view;        /**< VK_NULL_HANDLE = not given */
     VkFormat format;
     VkImageLayout layout;    /**< the layout it is in, and stays in: outputs VK_IMAGE_LAYOUT_GENERAL, inputs that or
-                                  SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL, STENCIL_READ_ONLY_OPTIMAL,
+                                  SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL,
+                                  STENCIL_READ_ONLY_OPTIMAL,
                                   DEPTH_STENCIL_READ_ONLY_OPTIMAL or DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL */
     VkExtent2D extent;       /**< px */
     VkImageUsageFlags usage; /**< what it was created with; 0 = not stated, not checked */

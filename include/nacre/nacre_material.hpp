@@ -4,37 +4,35 @@
 #include "nacre/material.hpp"
 #include "nacre/nacre.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace nacre {
 
-/// Owns the layers that `value` points to. Neither copied nor moved.
-struct CallMaterial {
-    explicit CallMaterial(const Material& material) : value(nacreDefaultMaterial()) {
-        for (const Layer& layer : material.layers) {
-            layers_.push_back(
-                {{float(layer.weight[0]), float(layer.weight[1]), float(layer.weight[2])}, float(layer.variance)});
-        }
-        value.layers = layers_.data();
-        value.layerCount = static_cast<std::uint32_t>(layers_.size());
-        for (int channel = 0; material.meanFreePath && channel < 3; ++channel) {
-            value.meanFreePath[channel] = float((*material.meanFreePath)[static_cast<std::size_t>(channel)]);
-        }
-        value.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
-        value.strength = float(material.strength);
-        const bool isWall = material.diffuseTransmission > 0;
-        value.translucency = float(material.translucency * (isWall ? material.diffuseTransmission : 1));
-        value.thinWall = isWall ? VK_TRUE : VK_FALSE;
-        value.scale = float(material.scale);
-        value.secondSurfaces = asksForSecondSurfaces(material) ? VK_TRUE : VK_FALSE;
+/// The C API's material. Its layers become those of `layers`, which has to live until nacreSetMaterials. Where light
+/// goes through a sheet (Material::diffuseTransmission) it is a thin wall.
+inline NacreMaterial callMaterial(const Material& material, std::vector<NacreLayer>& layers) {
+    const auto toFloat = [](double value) { return static_cast<float>(value); };
+    layers.clear();
+    for (const Layer& layer : material.layers) {
+        NacreLayer& converted = layers.emplace_back();
+        std::transform(layer.weight.begin(), layer.weight.end(), converted.weight, toFloat);
+        converted.variance = toFloat(layer.variance);
     }
-    CallMaterial(const CallMaterial&) = delete;
-    CallMaterial& operator=(const CallMaterial&) = delete;
-
-    NacreMaterial value;
-
-private:
-    std::vector<NacreLayer> layers_;
-};
+    NacreMaterial result = nacreDefaultMaterial();
+    result.layers = layers.data();
+    result.layerCount = static_cast<std::uint32_t>(layers.size());
+    if (material.meanFreePath) {
+        std::transform(material.meanFreePath->begin(), material.meanFreePath->end(), result.meanFreePath, toFloat);
+    }
+    result.albedoUse = material.albedoUse == AlbedoUse::PreAndPost ? NACRE_ALBEDO_PRE_AND_POST : NACRE_ALBEDO_POST;
+    result.strength = toFloat(material.strength);
+    const bool isWall = material.diffuseTransmission > 0;
+    result.translucency = toFloat(material.translucency * (isWall ? material.diffuseTransmission : 1));
+    result.thinWall = isWall ? VK_TRUE : VK_FALSE;
+    result.scale = toFloat(material.scale);
+    result.secondSurfaces = asksForSecondSurfaces(material) ? VK_TRUE : VK_FALSE;
+    return result;
+}
 
 } // namespace nacre

@@ -108,6 +108,7 @@ TEST_F(MemoryTest, GivenMemoryIsUsedAndGivesTheSamePicture) {
     const Piece host(gpu, requirements.host, true);
     info.deviceMemory = device.given;
     info.hostMemory = host.given;
+    std::unique_ptr<Piece> larger; // outlives the context
     callCounts() = {};
     Effect placed(gpu, info);
     EXPECT_EQ(callCounts().memories, 0);
@@ -121,6 +122,17 @@ TEST_F(MemoryTest, GivenMemoryIsUsedAndGivesTheSamePicture) {
     EXPECT_NE(placed.messages.back().find("NacreContextInfo::deviceMemory.size is"), std::string::npos);
     EXPECT_EQ(placed.scatter(input_, NACRE_TECHNIQUE_BANK), own.scatter(input_, NACRE_TECHNIQUE_BANK));
     EXPECT_EQ(nacreResize(placed.context, {16, 16}, nullptr), NACRE_SUCCESS);
+    // Memory that is handed over takes the place of what was given; too little of it changes nothing.
+    NacreContextInfo grown = info;
+    grown.maxExtent = {512, 512};
+    ASSERT_EQ(nacreGetMemoryRequirements(&grown, &requirements), NACRE_SUCCESS);
+    EXPECT_EQ(nacreResize(placed.context, grown.maxExtent, &device.given), NACRE_ERROR_LIMIT_EXCEEDED);
+    EXPECT_NE(placed.messages.back().find("deviceMemory.size is"), std::string::npos);
+    larger = std::make_unique<Piece>(gpu, requirements.device, false);
+    callCounts() = {};
+    EXPECT_EQ(nacreResize(placed.context, grown.maxExtent, &larger->given), NACRE_SUCCESS);
+    EXPECT_EQ(callCounts().memories, 0);
+    EXPECT_EQ(placed.scatter(input_, NACRE_TECHNIQUE_BANK), own.scatter(input_, NACRE_TECHNIQUE_BANK));
 }
 
 TEST_F(MemoryTest, OtherMemoryWillDoWhereTheBestIsFull) {

@@ -146,6 +146,7 @@ TEST_F(ArgumentsTest, Transmit) {
     };
     ScatterImages images(gpu, input_);
     NacreImage good = images.info.depth; // of a format that shadow maps have, too
+    const NacreShadowCascade cascade{};
     const auto changed = [&good](auto change) {
         NacreImage image = good;
         change(image);
@@ -206,6 +207,27 @@ TEST_F(ArgumentsTest, Transmit) {
              l.shadowClipFromWorld[3] = nan;
          },
          NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].shadowClipFromWorld[3] is nan"},
+        {[](auto&, auto& l) { l.attenuation[1] = -1; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::lights[0].attenuation is -1"},
+        {[](auto&, auto& l) { l.shadowDepthEncoding = static_cast<NacreDepthEncoding>(4); },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].shadowDepthEncoding is 4"},
+        {[](auto&, auto& l) { l.cascadeChoice = static_cast<NacreCascadeChoice>(4); }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::lights[0].cascadeChoice is 4"},
+        {[](auto&, auto& l) { l.cascadeCount = 17; }, NACRE_ERROR_LIMIT_EXCEEDED,
+         "NacreTransmitInfo::lights[0].cascadeCount is 17, at most 16"},
+        {[&](auto&, auto& l) { l.kind = NACRE_LIGHT_POINT, l.cascadeCount = 1, l.cascades = &cascade; },
+         NACRE_ERROR_INVALID_ARGUMENT, "a point light has a cube in place of cascades"},
+        {[&](auto&, auto& l) { l.cascadeCount = 1, l.cascades = &cascade; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "NacreTransmitInfo::lights[0].cascades[0].shadowMap is 0, NacreTransmitInfo::shadowMapCount is 0"},
+        {[&](auto& i, auto& l) {
+             i.shadowMaps = &good, i.shadowMapCount = 1;
+             l.cascadeCount = 1, l.cascades = &cascade, l.cascadeBlend = 2;
+         },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].cascadeBlend is 2"},
+        {[&](auto& i, auto& l) {
+             i.shadowMaps = &good, i.shadowMapCount = 1, l.cascadeCount = 1, l.cascades = &cascade;
+         },
+         NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].cascades[0].range is 0, must be positive"},
         {[](auto&, auto& l) { l.range = nan; }, NACRE_ERROR_INVALID_ARGUMENT, "NacreTransmitInfo::lights[0].range"},
         {[](auto&, auto& l) { l.kind = NACRE_LIGHT_SPOT, l.outerConeAngle = 2; }, NACRE_ERROR_INVALID_ARGUMENT,
          "NacreTransmitInfo::lights[0].outerConeAngle is 2"},
@@ -299,6 +321,13 @@ TEST_F(ArgumentsTest, Context) {
         {[](auto& i) { i.recordsPerFrame = 65; }, NACRE_ERROR_LIMIT_EXCEEDED, "recordsPerFrame is 65"},
         {[](auto& i) { i.maxMaterials = 65536; }, NACRE_ERROR_LIMIT_EXCEEDED, "maxMaterials is 65536"},
         {[](auto& i) { i.maxLights = 1025; }, NACRE_ERROR_LIMIT_EXCEEDED, "maxLights is 1025"},
+        {[](auto& i) { i.materialIdMask = 65536; }, NACRE_ERROR_INVALID_ARGUMENT,
+         "materialIdMask is 65536, must be in [0, 65535]"},
+        {[](auto& i) { i.materialIdShift = 16; }, NACRE_ERROR_INVALID_ARGUMENT, "materialIdShift is 16"},
+        {[](auto& i) { i.normalEncoding = static_cast<NacreNormalEncoding>(3); }, NACRE_ERROR_INVALID_ARGUMENT,
+         "normalEncoding is 3"},
+        {[](auto& i) { i.normalSpace = static_cast<NacreNormalSpace>(2); }, NACRE_ERROR_INVALID_ARGUMENT,
+         "normalSpace is 2"},
         {[](auto& i) { i.techniques = 0x80000000u; }, NACRE_ERROR_INVALID_ARGUMENT, "techniques is 0x80000000"},
     };
     for (const Case& one : cases) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 using namespace nacre;
 using namespace nacre::tests;
@@ -351,6 +352,38 @@ TEST_F(EncodingsTest, PresetsAreSetByName) {
     EXPECT_EQ(nacreSetPreset(effect.context, 1, "skim"), NACRE_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(effect.messages.back().find("name is \"skim\", must be one of skin, "), std::string::npos);
     EXPECT_EQ(nacreSetPreset(effect.context, 0, "skin"), NACRE_ERROR_INVALID_ARGUMENT);
+}
+
+/// An instance of Vulkan 1.0, whose devices lack what the effect calls.
+TEST_F(EncodingsTest, OldInstancesAreTold) {
+    VkInstanceCreateInfo instanceInfo{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    VkInstance instance = VK_NULL_HANDLE;
+    ASSERT_EQ(vkCreateInstance(&instanceInfo, nullptr, &instance), VK_SUCCESS);
+    std::uint32_t count = 1;
+    VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+    ASSERT_GE(vkEnumeratePhysicalDevices(instance, &count, &physicalDevice), VK_SUCCESS);
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queueInfo.queueCount = 1;
+    queueInfo.pQueuePriorities = &priority;
+    VkDeviceCreateInfo deviceInfo{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    deviceInfo.queueCreateInfoCount = 1;
+    deviceInfo.pQueueCreateInfos = &queueInfo;
+    VkDevice device = VK_NULL_HANDLE;
+    ASSERT_EQ(vkCreateDevice(physicalDevice, &deviceInfo, nullptr, &device), VK_SUCCESS);
+    NacreContextInfo info = contextInfo();
+    info.instance = instance;
+    info.physicalDevice = physicalDevice;
+    info.device = device;
+    try {
+        Effect effect(gpu, info);
+        ADD_FAILURE() << "a context was made";
+    } catch (const std::runtime_error& error) {
+        std::printf("%s\n", error.what());
+        EXPECT_NE(std::string(error.what()).find("1.2"), std::string::npos) << error.what();
+    }
+    vkDestroyDevice(device, nullptr);
+    vkDestroyInstance(instance, nullptr);
 }
 
 TEST_F(EncodingsTest, ForgottenFeaturesAreTold) {

@@ -67,6 +67,7 @@ for kind in static shared; do
     clean cmake -S "$consumer/c_alone" -B "c-$kind" -DCMAKE_PREFIX_PATH="$work/$kind" > log.txt
     clean cmake --build "c-$kind" > log.txt || { cat log.txt; exit 1; }
     run "c-$kind/c_alone"
+    if [ $kind = shared ]; then run "c-$kind/c_file"; fi
     if clean cmake -S "$consumer/c_alone" -B "c-$kind" -DCOMPONENT=cores > log.txt 2>&1; then exit 1; fi
     grep -q 'nacre has no component "cores"' log.txt
 
