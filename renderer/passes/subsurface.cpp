@@ -81,7 +81,8 @@ SubsurfaceImages::SubsurfaceImages(Gpu& gpu, vk::Extent2D extent, bool withThick
 
 Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials)
     : gpu_(gpu), info_(info), materials_(checked(materials)), message_(std::make_unique<std::string>()) {
-    createContext(techniquesFor(info.technique, materials));
+    createContext(techniquesFor(info.technique, materials) |
+                  (info.secondSurfaces ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0));
     setMaterials(materials);
 }
 

@@ -41,6 +41,7 @@ public:
         std::uint32_t maxLights = 1;
         float metersPerUnit = 1;
         NacreTechnique technique = NACRE_TECHNIQUE_DEFAULT; ///< the first; `prepare` adds others
+        bool secondSurfaces = false;                        ///< `bank-surfaces` as well
     };
 
     Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials);

@@ -16,15 +16,15 @@ using Json = nlohmann::json;
 
 Json cameraJson(const Camera& camera) {
     return {{"name", camera.name},
-              {"position", shortTriple(camera.position)},
-              {"target", shortTriple(camera.target)},
-              {"up", shortTriple(camera.up)},
-              {"offCenter", {shortNumber(camera.offCenter.x), shortNumber(camera.offCenter.y)}},
-              {"nearPlane", shortNumber(camera.nearPlane)},
-              {"farPlane", shortNumber(camera.farPlane)},
-              {"projection", camera.projection == ProjectionKind::Orthographic ? "orthographic" : "perspective"},
-              {"orthographicHeight", shortNumber(camera.orthographicHeight)},
-              {"verticalFieldOfView", degreesOf(camera.verticalFieldOfView)}};
+            {"position", shortTriple(camera.position)},
+            {"target", shortTriple(camera.target)},
+            {"up", shortTriple(camera.up)},
+            {"offCenter", {shortNumber(camera.offCenter.x), shortNumber(camera.offCenter.y)}},
+            {"nearPlane", shortNumber(camera.nearPlane)},
+            {"farPlane", shortNumber(camera.farPlane)},
+            {"projection", camera.projection == ProjectionKind::Orthographic ? "orthographic" : "perspective"},
+            {"orthographicHeight", shortNumber(camera.orthographicHeight)},
+            {"verticalFieldOfView", degreesOf(camera.verticalFieldOfView)}};
 }
 
 /// The four numbers of a look that a material sets, too.

@@ -2,8 +2,8 @@
 #include "scene/files/scene_file.hpp"
 
 #include "image/image_file.hpp"
-#include "scene/files/save_scene_file.hpp"
 #include "nacre/presets.hpp"
+#include "scene/files/save_scene_file.hpp"
 #include "scene/import.hpp"
 #include "scene/surface_material.hpp"
 #include "tests/support/gltf_builder.hpp"

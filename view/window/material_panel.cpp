@@ -3,6 +3,7 @@
 #include "nacre/files.hpp"
 #include "nacre/layering.hpp"
 #include "nacre/presets.hpp"
+#include "view/model/material_structs.hpp"
 #include "view/window/mixing_dialog.hpp"
 
 #include <QColorDialog>
@@ -18,6 +19,7 @@ namespace nacre::view {
 namespace {
 
 constexpr const char* materialFilter = "Materials (*.json);;All files (*)";
+constexpr const char* saveFilter = "Material file (*.json);;C structs of nacre.h (*.h)";
 constexpr const char* noPreset = "Choose a preset …";
 
 QGroupBox* group(const QString& title, QLayout* layout) {
@@ -220,7 +222,7 @@ void MaterialPanel::load(const QString& file) {
 
 void MaterialPanel::askAndSave() {
     const QString name = QString::fromStdString(material().name) + ".json";
-    const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, materialFilter);
+    const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, saveFilter);
     if (!file.isEmpty()) {
         save(file);
     }
@@ -228,8 +230,14 @@ void MaterialPanel::askAndSave() {
 
 void MaterialPanel::save(const QString& file) {
     try {
-        saveMaterial(document_.edited().materials[document_.material()].drawn(), file.toStdString());
-        document_.history().setClean();
+        const Material drawn = document_.edited().materials[document_.material()].drawn();
+        if (file.endsWith(".h") || file.endsWith(".c")) {
+            const std::string text = structsOf(drawn);
+            writeFileAtomically(file.toStdString(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+            return;
+        }
+        saveMaterial(drawn, file.toStdString());
+        document_.materialSaved();
     } catch (const std::exception& error) {
         Q_EMIT failed(QString::fromUtf8(error.what()));
     }

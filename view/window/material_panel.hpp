@@ -21,7 +21,7 @@ public:
 
     /// Where the plots look at the bank's mixture; the radius is also told in pixels of this scale.
     void setScale(double pixelsPerMillimeter);
-    /// Loads or saves the material that is shown; `failed` says what goes wrong.
+    /// Loads or saves the material that is shown; `failed` says what goes wrong. A file .h or .c gets C structs.
     void load(const QString& file);
     void save(const QString& file);
     void askAndSave();
