@@ -5,8 +5,10 @@
 #include "view/loop/headless.hpp"
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
+#include "view/model/edited_file.hpp"
 #include "view/model/edited_scene.hpp"
 #include "view/model/inspection.hpp"
+#include "view/model/light_handles.hpp"
 #include "view/model/material_structs.hpp"
 
 #include "trace/geometry.hpp"
@@ -157,6 +159,122 @@ TEST_F(ViewLoop, APictureOfAnotherSizeAndBackIsTheSame) {
     EXPECT_EQ(other.height, 20u);
     loop_->resize(side, side);
     EXPECT_TRUE(stillPicture(*loop_) == before);
+}
+
+/// vkQueueSubmit2 of a device that is gone.
+VKAPI_ATTR VkResult VKAPI_CALL loseDevice(VkQueue, std::uint32_t, const VkSubmitInfo2*, VkFence) {
+    return VK_ERROR_DEVICE_LOST;
+}
+
+TEST_F(ViewLoop, ALostDeviceIsASentence) {
+    const Image before = stillPicture(*loop_);
+    auto& dispatcher = const_cast<vk::raii::DeviceDispatcher&>(*device().implementation().device.getDispatcher());
+    const PFN_vkQueueSubmit2 submit = std::exchange(dispatcher.vkQueueSubmit2, &loseDevice);
+    loop_->setCamera(scene_->cameras[0]);
+    try {
+        loop_->step();
+        FAIL() << "the frame was submitted";
+    } catch (const renderer::DeviceLost& error) {
+        EXPECT_STREQ(error.what(), "the graphics device has stopped working and has to be opened again");
+    }
+    dispatcher.vkQueueSubmit2 = submit;
+    EXPECT_TRUE(stillPicture(*loop_) == before); // what was recorded and not drawn counts for nothing
+}
+
+TEST_F(ViewLoop, AFootprintIsWhatLightTravelsInPixels) {
+    view::SideSettings look;
+    look.look.image = renderer::ShownImage::Footprint;
+    loop_->setSide(0, look);
+    stillPicture(*loop_);
+    const Image footprint = loop_->read(0).light;
+    const trace::Geometry geometry(*scene_);
+    scene::Scene copy = *scene_;
+    const auto found = view::inspect(geometry, view::editedOf(copy), scene_->cameras[0], {}, {0.5, 0.5}, side, side);
+    const double radius = makeProfile(presets().front())->rmsRadius(0); // skin's red goes farthest
+    EXPECT_NEAR(footprint.at(side / 2, side / 2)[0], radius * found->pixelsPerMillimeter, 0.02 * radius);
+    EXPECT_EQ(footprint.at(1, 1)[0], 0);
+    view::SideSettings picture;
+    picture.look.exposure = scene_->exposure;
+    loop_->setSide(0, picture);
+}
+
+TEST_F(ViewLoop, ABackdropIsSeenWhereThereIsNothing) {
+    scene::Camera camera = scene_->cameras[0];
+    camera.position += glm::vec3(0, 100, 0); // beside everything
+    camera.target += glm::vec3(0, 100, 0);
+    loop_->setCamera(camera);
+    view::SideSettings white;
+    white.look.backdrop = renderer::Backdrop::White;
+    loop_->setSide(0, white);
+    stillPicture(*loop_);
+    EXPECT_EQ(loop_->read(0).shown.at(3, 3)[1], 1);
+    EXPECT_LT(loop_->read(0).light.at(3, 3)[1], 0.5f); // it is no light
+    view::SideSettings picture;
+    picture.look.exposure = scene_->exposure;
+    loop_->setSide(0, picture);
+    loop_->setCamera(scene_->cameras[0]);
+}
+
+TEST_F(ViewLoop, AWindowHasTheMarksOfLights) {
+    stillPicture(*loop_);
+    loop_->setShown({.marks = {{.place = {0.25f, 0.5f}, .end = {0.25f, 0.5f}, .color = {1, 0, 0.5f}, .radius = 8}}});
+    const Image window = loop_->readWindow(2 * side + 40, 2 * side); // bars beside the picture
+    EXPECT_EQ(window.at(20 + side / 2, side)[0], 1);
+    EXPECT_EQ(window.at(20 + side / 2, side)[1], 0);
+    EXPECT_GT(window.at(20 + side, side)[1], 0);
+    loop_->setShown({});
+}
+
+TEST(ViewHandles, FollowTheMouse) {
+    scene::Camera camera;
+    camera.position = {1, 2, 5};
+    camera.target = {0.5f, 0, 0};
+    constexpr float aspect = 1.5f;
+    for (const scene::LightKind kind :
+         {scene::LightKind::Directional, scene::LightKind::Spot, scene::LightKind::Point}) {
+        const scene::Light light = view::newLight(kind, camera, 1);
+        const std::vector<scene::Light> one{light};
+        ASSERT_EQ(view::lightHandles(one, camera, aspect).size(), 1u);
+        for (const bool behind : {false, true}) {
+            const glm::vec2 place(0.45f, 0.6f);
+            const auto dragged = view::draggedLight(light, camera, aspect, place, view::LightDrag::Move, behind);
+            ASSERT_TRUE(dragged);
+            const view::LightHandle handle = view::lightHandles(std::vector{*dragged}, camera, aspect).at(0);
+            EXPECT_NEAR(glm::distance(handle.place, place), 0, 1e-4f);
+            EXPECT_TRUE(kind != scene::LightKind::Directional || handle.behind == behind);
+        }
+    }
+    const scene::Light sun = view::newLight(scene::LightKind::Directional, camera, 1);
+    EXPECT_FALSE(view::draggedLight(sun, camera, aspect, {0.99f, 0.5f}, view::LightDrag::Move, false));
+    const scene::Light spot = view::newLight(scene::LightKind::Spot, camera, 1);
+    const auto aimed = view::draggedLight(spot, camera, aspect, {0.5f, 0.5f}, view::LightDrag::Aim, false);
+    EXPECT_NEAR(glm::distance(aimed->direction, glm::normalize(camera.target - spot.position)), 0, 1e-5f);
+}
+
+TEST(ViewEdits, AreKeptWhole) {
+    scene::Scene scene = ballScene();
+    const view::EditedScene base = view::editedOf(scene);
+    view::EditedScene edited = base;
+    edited.materials[0].hidden = {2};
+    edited.materials[0].material.layers[1].variance = 0.1234;
+    edited.surfaces[1].roughness = 0.3f;
+    edited.surfaces[1].material = scene::none;
+    edited.lights.pop_back();
+    edited.lights[0].intensity = 0.7f;
+    edited.exposureStops = 1.5f;
+    edited.environmentRotation = 0.25f;
+    const std::string text = view::formatEdited(edited);
+    EXPECT_NE(text, view::formatEdited(base));
+    const view::EditedScene read = view::parseEdited(text, "kept", base);
+    EXPECT_EQ(read.materials, edited.materials);
+    EXPECT_EQ(read.surfaces[1].material, scene::none);
+    EXPECT_EQ(read.lights.size(), 1u);
+    EXPECT_EQ(read.lights[0].intensity, 0.7f);
+    EXPECT_EQ(read.environmentRotation, 0.25f);
+    view::EditedScene other = base;
+    other.materials.clear();
+    EXPECT_THROW(static_cast<void>(view::parseEdited(text, "kept", other)), FileError);
+    EXPECT_THROW(static_cast<void>(view::parseEdited("{}", "kept", base)), FileError);
 }
 
 TEST(ViewReference, ClosingWhileItRunsTakesLessThanASecond) {

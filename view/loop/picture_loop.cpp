@@ -373,6 +373,11 @@ Step PictureLoop::step() {
             slot.commands.end();
             submit(slot, image);
         } catch (...) {
+            if (slot.drawn != nullptr) {
+                slot.drawn->frame.discard();
+                slot.drawn = nullptr;
+            }
+            restart();
             // The semaphore of an image that is not drawn stays signalled.
             slot.imageFree = vk::raii::Semaphore(gpu_.device, vk::SemaphoreCreateInfo{});
             throw;
@@ -432,10 +437,10 @@ void PictureLoop::recordFrame(Slot& slot, std::uint32_t index, std::uint32_t sid
     Sized& sized = current();
     prepareEffect(sized, settings.effect);
     const std::uint32_t sample = moving_ ? 0 : accumulation_->samples(side);
+    slot.drawn = &sized;
     sized.frame.record(slot.commands, index, {camera_, jitterOf(sample)});
     accumulation_->recordSample(slot.commands, index, sized.pass, side, sized.extent, prepareLook(settings.look, index),
                                 sized.frame.effectUse(index));
-    slot.drawn = &sized;
 }
 
 void PictureLoop::recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,
