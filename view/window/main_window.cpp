@@ -12,6 +12,7 @@
 #include <QDeadlineTimer>
 #include <QDockWidget>
 #include <QMessageBox>
+#include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
 
@@ -26,6 +27,7 @@ constexpr std::uint32_t mostLights = 16;
 constexpr std::uint32_t mostShadowLayers = 12; // a point light has six
 constexpr float composedAspect = 16.0f / 9;    // what scenes' cameras are made for
 constexpr int recoveryMilliseconds = 500;      // after an edit, until it is safe
+constexpr int swatchMilliseconds = 2;          // until the device is asked again
 constexpr int noteMilliseconds = 10'000;       // that a sentence stays in the status bar
 
 bool sameEffect(const renderer::EffectSettings& one, const renderer::EffectSettings& other) {
@@ -98,7 +100,44 @@ MainWindow::MainWindow(const renderer::DeviceSettings& device) : device_(windowD
     connect(picture_, &PictureWindow::cameraMoved, compare_, &ComparePanel::outdate);
     recovery_ = std::make_unique<Recovery>();
     recoveryTimer_.setSingleShot(true);
+    swatchTimer_.setSingleShot(true);
+    connect(&swatchTimer_, &QTimer::timeout, this, &MainWindow::drawSwatch);
     connect(&recoveryTimer_, &QTimer::timeout, this, &MainWindow::saveRecovery);
+}
+
+/// Whether the panel Material shows a swatch of what is no longer the material.
+bool MainWindow::isSwatchDue() const {
+    return loop_ && (swatchTimer_.isActive() ||
+                     (material_->isSwatchSeen() &&
+                      swatchMaterial_ != document_.edited().materials.at(document_.material()).drawn()));
+}
+
+/// The picture comes first: the swatch is drawn while that stands still.
+void MainWindow::drawSwatch() {
+    if (!loop_ || !loop_->isConverged()) {
+        return;
+    }
+    try {
+        if (!swatch_) {
+            constexpr double millimetersPerInch = 25.4;
+            swatch_ = std::make_unique<Swatch>(device_, screen()->physicalDotsPerInch() * devicePixelRatioF() /
+                                                            millimetersPerInch);
+        }
+        const Material material = document_.edited().materials.at(document_.material()).drawn();
+        if (swatchMaterial_ != material) {
+            swatch_->setMaterial(material);
+            swatchMaterial_ = material;
+        }
+        if (swatch_->step()) {
+            material_->showSwatch(swatch_->picture());
+        } else {
+            swatchTimer_.start(swatchMilliseconds);
+        }
+    } catch (const renderer::DeviceLost& error) {
+        deviceLost(QString::fromUtf8(error.what()));
+    } catch (const std::exception& error) {
+        complain(QString::fromUtf8(error.what()));
+    }
 }
 
 MainWindow::~MainWindow() {
@@ -256,6 +295,9 @@ void MainWindow::showStatus() {
         measured_ = true;
         compare_->measure();
     }
+    if (loop_->isConverged() && !swatchTimer_.isActive() && isSwatchDue()) {
+        swatchTimer_.start(0);
+    }
 }
 
 bool MainWindow::drawUntilStill(int milliseconds) {
@@ -272,7 +314,9 @@ bool MainWindow::drawUntilStill(int milliseconds) {
         if (loop_ && loop_->isConverged()) {
             loop_->wait();
             showStatus();
-            return true;
+            if (!compare_->isMeasuring() && !isSwatchDue()) {
+                return true;
+            }
         }
     }
     return false;

@@ -4,6 +4,7 @@
 #include "trace/geometry.hpp"
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
+#include "view/loop/swatch.hpp"
 #include "view/window/document.hpp"
 #include "view/window/picture_window.hpp"
 
@@ -106,6 +107,8 @@ private:
     void applyMarks();
     void showLights(bool shown);
     void changeLight(std::size_t index, const std::function<void(scene::Light&)>& change);
+    bool isSwatchDue() const;
+    void drawSwatch();
     float widening() const;
     void remakeLoop();
     void openPath(const QString& file, const std::function<scene::Scene()>& load);
@@ -135,6 +138,9 @@ private:
     std::shared_ptr<trace::Geometry> geometry_; ///< of `drawn_`; made when it is first asked for
     std::unique_ptr<Recovery> recovery_;
     QTimer recoveryTimer_;
+    std::unique_ptr<Swatch> swatch_;
+    std::optional<Material> swatchMaterial_; ///< that the swatch shows or is about to
+    QTimer swatchTimer_;
     LookPanel* look_ = nullptr;
     MaterialPanel* material_ = nullptr;
     LightPanel* lights_ = nullptr;

@@ -180,6 +180,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::deviceLost(const QString& sentence) {
     saveRecovery();
     compare_->stop();
+    swatch_.reset();
     loop_.reset();
     complain("Nothing can be drawn any more: " + sentence +
              ". What you edited is kept; the next start of nacre view offers it.");

@@ -1,10 +1,12 @@
 #include "view/window/material_panel.hpp"
 
 #include "nacre/files.hpp"
-#include "nacre/layering.hpp"
 #include "nacre/presets.hpp"
 #include "view/model/material_structs.hpp"
-#include "view/window/mixing_dialog.hpp"
+#include "view/model/recipes.hpp"
+#include "view/window/recipe_dialog.hpp"
+#include "view/window/shown_image.hpp"
+#include "view/window/slab_dialog.hpp"
 
 #include <QColorDialog>
 #include <QFileDialog>
@@ -51,6 +53,7 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
       color_(new QPushButton),
       albedoUse_(new QComboBox),
       radius_(new QLabel),
+      swatch_(new QLabel),
       plots_{new ProfilePlot(PlotKind::Profile), new ProfilePlot(PlotKind::EdgeResponse),
              new ProfilePlot(PlotKind::Slab)} {
     auto* layout = new QVBoxLayout(this);
@@ -70,6 +73,7 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     addMaker("material.skin", "Skin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
     addMaker("material.meanFreePath", "Mean free path …", "Layers of a medium by its colour and mean free path",
              &MaterialPanel::makeMeanFreePath);
+    addMaker("material.slabs", "Slabs …", "Layers of a stack of physical slabs", &MaterialPanel::editSlabs);
     addMaker("material.load", "Load …", "Read a material file", [this] {
         const QString file = QFileDialog::getOpenFileName(this, "Load a material", {}, materialFilter);
         if (!file.isEmpty()) {
@@ -79,6 +83,13 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     addMaker("material.save", "Save …", "Write this material to a file", [this] { askAndSave(); });
     source->addRow(make);
     layout->addLayout(source);
+    swatch_->setObjectName("material.swatch");
+    swatch_->setAccessibleName("Swatch");
+    swatch_->setToolTip(
+        "This material as large as it is, drawn by the same frame: the edge of a shadow, a wedge of 0 to "
+        "12 mm lit from behind, a ball of 20 mm");
+    swatch_->setFixedHeight(physicalDpiY()); // an inch, which a swatch nearly is
+    layout->addWidget(swatch_);
 
     auto* layers = new QVBoxLayout;
     layers->addWidget(layers_);
@@ -159,6 +170,16 @@ void MaterialPanel::setScale(double pixelsPerMillimeter) {
     refresh();
 }
 
+bool MaterialPanel::isSwatchSeen() const {
+    return !swatch_->visibleRegion().isEmpty();
+}
+
+void MaterialPanel::showSwatch(const Image& swatch) {
+    QPixmap pixmap = QPixmap::fromImage(toQImage(swatch));
+    pixmap.setDevicePixelRatio(devicePixelRatioF());
+    swatch_->setPixmap(pixmap);
+}
+
 void MaterialPanel::refresh() {
     if (document_.edited().materials.empty()) {
         return;
@@ -197,13 +218,13 @@ void MaterialPanel::refresh() {
     }
 }
 
-void MaterialPanel::makeFrom(const QString& text, const std::function<Material()>& make) {
+void MaterialPanel::makeFrom(const QString& text, const std::function<Material()>& make, const QString& key) {
     try {
         const Material made = make();
         if (const std::string fault = findFault(made); !fault.empty()) {
             throw std::runtime_error(fault);
         }
-        document_.edit(text, {}, [&](EditedScene& scene) { replaceMaterial(scene, document_.material(), made); });
+        document_.edit(text, key, [&](EditedScene& scene) { replaceMaterial(scene, document_.material(), made); });
     } catch (const std::exception& error) {
         Q_EMIT failed(QString::fromUtf8(error.what()));
     }
@@ -254,15 +275,38 @@ void MaterialPanel::chooseColor() {
 }
 
 void MaterialPanel::makeSkin() {
-    if (const std::optional<SkinRecipe> recipe = askForSkin(this)) {
-        makeFrom("skin", [&] { return mixSkin(*recipe); });
-    }
+    openRecipe<SkinRecipe>(
+        window(), "Skin by melanin and blood", skinParameters(), {},
+        [this](const SkinRecipe& recipe) {
+            makeFrom(
+                "skin", [&] { return mixSkin(recipe); }, "recipe.skin");
+        },
+        [this] { document_.endEdit(); });
 }
 
 void MaterialPanel::makeMeanFreePath() {
-    if (const std::optional<MediumRecipe> recipe = askForMedium(this)) {
-        makeFrom("mean free path", [&] { return mixMedium(*recipe); });
-    }
+    openRecipe<MediumRecipe>(
+        window(), "Medium by mean free path, as OpenPBR has it", mediumParameters(), {},
+        [this](const MediumRecipe& recipe) {
+            makeFrom(
+                "mean free path", [&] { return mixMedium(recipe); }, "recipe.medium");
+        },
+        [this] { document_.endEdit(); });
+}
+
+/// Slabs of a material that has none begin as those of skin, and replace its layers with the first change.
+void MaterialPanel::editSlabs() {
+    const std::vector<Slab> slabs = material().slabs.empty() ? skinSlabs({}) : material().slabs;
+    auto* dialog = new SlabDialog(
+        slabs,
+        [this](const std::vector<Slab>& changed) {
+            Material base = material();
+            base.description = "Made of slabs: " + std::to_string(changed.size());
+            makeFrom(
+                "slabs", [&] { return mixSlabs(base, changed); }, "slabs");
+        },
+        window());
+    dialog->show();
 }
 
 } // namespace nacre::view

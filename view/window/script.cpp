@@ -1,10 +1,10 @@
 #include "view/window/script.hpp"
 
-#include "image/image.hpp"
 #include "nacre/files.hpp"
 #include "view/window/main_window.hpp"
 #include "view/window/material_panel.hpp"
 #include "view/window/parameter_slider.hpp"
+#include "view/window/shown_image.hpp"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -13,6 +13,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QLabel>
 #include <QListWidget>
 #include <QPainter>
 #include <QTest>
@@ -191,6 +192,15 @@ void pause(MainWindow&, const QJsonObject& step) {
     QTest::qWait(step["pause"].toInt());
 }
 
+/// {"expect": NAME, "text": PART}: that a label has this in its text.
+void expect(MainWindow& window, const QJsonObject& step) {
+    const QString shown = find<QLabel>(window, textOf(step["expect"], "expect")).text();
+    const QString part = textOf(step["text"], "text");
+    if (!shown.contains(part)) {
+        refuse("'" + step["expect"].toString() + "' says '" + shown + "', and not '" + part + "'");
+    }
+}
+
 void recover(MainWindow& window, const QJsonObject&) {
     window.offerRecovered();
 }
@@ -208,19 +218,6 @@ void loadMaterialFile(MainWindow& window, const QJsonObject& step) {
     window.materialPanel().load(textOf(step["loadMaterial"], "loadMaterial"));
 }
 
-QImage toImage(const Image& encoded) {
-    QImage result(static_cast<int>(encoded.width), static_cast<int>(encoded.height), QImage::Format_RGB32);
-    for (int y = 0; y < result.height(); ++y) {
-        for (int x = 0; x < result.width(); ++x) {
-            const std::span<const float> pixel =
-                encoded.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-            const auto byte = [&](std::size_t channel) { return static_cast<int>(255 * pixel[channel] + 0.5f); };
-            result.setPixel(x, y, qRgb(byte(0), byte(1), byte(2)));
-        }
-    }
-    return result;
-}
-
 /// {"screenshot": FILE.png}: the window with its picture, which Qt does not see.
 void takeScreenshot(MainWindow& window, const QJsonObject& step) {
     if (window.loop() == nullptr) {
@@ -229,8 +226,8 @@ void takeScreenshot(MainWindow& window, const QJsonObject& step) {
     QPixmap shot = window.grab();
     const QRect area(window.centralWidget()->pos(), window.centralWidget()->size());
     QPainter painter(&shot);
-    painter.drawImage(area, toImage(window.loop()->readWindow(static_cast<std::uint32_t>(area.width()),
-                                                              static_cast<std::uint32_t>(area.height()))));
+    painter.drawImage(area, toQImage(window.loop()->readWindow(static_cast<std::uint32_t>(area.width()),
+                                                               static_cast<std::uint32_t>(area.height()))));
     painter.end();
     const QString file = textOf(step["screenshot"], "screenshot");
     if (!shot.save(file)) {
@@ -259,6 +256,7 @@ constexpr std::array kinds{StepKind{"set", set},
                            StepKind{"loadMaterial", loadMaterialFile},
                            StepKind{"saveScene", saveScene},
                            StepKind{"recover", recover},
+                           StepKind{"expect", expect},
                            StepKind{"pause", pause},
                            StepKind{"hide", hide},
                            StepKind{"picture", savePicture},
