@@ -80,8 +80,9 @@ TEST_F(ViewTest, HeadlessSaysWhatFramesTakeWithLightsStillAndMoving) {
     const Outcome outcome =
         run({"view", "cube.obj", "--headless", "--frames", "3", "--size", "32x18", "--shadow-map-size", "64"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
-    for (const char* part : {"32x18, 3 frames", "lights still", "lights moving", "scatter and transmit, device",
-                             "frame, processor", "p99", "G-buffer"}) {
+    for (const char* part :
+         {"32x18, 3 frames", "lights still", "lights moving", "material changing", "growth of memory",
+          "scatter and transmit, device", "frame, processor", "p99", "G-buffer"}) {
         EXPECT_NE(outcome.output.find(part), std::string::npos) << part << "\n" << outcome.output;
     }
 }
@@ -127,6 +128,8 @@ TEST_F(ViewTest, AScriptEditsUndoesSavesAndLoads) {
                                        {{"choose", "compare.second"}, {"item", "Effect off"}},
                                        {{"choose", "compare.mode"}, {"item", "A and B, divided"}},
                                        {{"wait", true}},
+                                       {{"expect", "compare.error"}, {"text", "FLIP"}},
+                                       {{"expect", "compare.error"}, {"text", "Light, A over B: red"}},
                                        {{"screenshot", "window.png"}}},
                                       offscreen);
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
@@ -204,6 +207,25 @@ TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
     EXPECT_EQ(bytes("recovered.png"), bytes("edited.png"));
     EXPECT_TRUE(std::filesystem::is_empty(kept)) << "it would be offered once more";
+}
+
+/// A second on a machine that has nothing else to do; tests run beside each other.
+TEST_F(ViewTest, ClosingWhileAReferenceRunsIsSoonOver) {
+    const Json steps{{{"wait", true}},
+                     {{"choose", "compare.second"}, {"item", "Reference (surface integral)"}},
+                     {{"pause", 1500}},
+                     {{"expect", "compare.progress"}, {"text", "samples a pixel"}},
+                     {{"picture", "last.png"}}};
+    writeText(folder() / "closed.json", Json{{"size", {500, 300}}, {"samples", 1}, {"steps", steps}}.dump());
+    const nacre::test::RunningNacre running({"view", "cube.obj", "--material", "skin", "--script", "closed.json"},
+                                            folder(), environmentOf(offscreen));
+    while (!std::filesystem::exists(folder() / "last.png") && running.error().find("nacre: ") == std::string::npos) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = running.wait();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
 }
 
 TEST_F(ViewTest, AWrongStepIsNamed) {

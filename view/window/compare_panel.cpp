@@ -35,7 +35,7 @@ ComparePanel::ComparePanel(QWidget* parent)
       mode_(new QComboBox),
       first_(new QComboBox),
       second_(new QComboBox),
-      restart_(new QPushButton("Start the reference again")),
+      restart_(new QPushButton("Start the &reference again")),
       progress_(new QLabel),
       error_(new QLabel),
       map_(new QLabel) {
@@ -64,9 +64,9 @@ ComparePanel::ComparePanel(QWidget* parent)
     second_->addItems({pictureRow, referenceRow});
     second_->setCurrentIndex(1);
     auto* form = new QFormLayout;
-    form->addRow("Show", mode_);
-    form->addRow("A, left", first_);
-    form->addRow("B, right", second_);
+    form->addRow("Sho&w", mode_);
+    form->addRow("&A, left", first_);
+    form->addRow("&B, right", second_);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(form);
     layout->addWidget(restart_);
@@ -207,6 +207,9 @@ void ComparePanel::poll() {
         return;
     }
     QString text = QString("Reference: %1 samples a pixel").arg(state.samples, 0, 'f', 1);
+    if (state.version == 0) {
+        text += "; it is seen once every pixel has one";
+    }
     if (std::isfinite(state.noise) && state.noise > 0) {
         text += QString(", noise %1 %").arg(100 * state.noise, 0, 'g', 2);
     }
@@ -223,7 +226,8 @@ void ComparePanel::measure() {
         startReference(); // the picture stands still again
         return;
     }
-    if (!isComparing() || !readSide) {
+    const bool hasNothing = isReference() && version_ == 0;
+    if (!isComparing() || !readSide || hasNothing) {
         error_->clear();
         map_->clear();
         return;

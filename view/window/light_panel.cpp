@@ -20,7 +20,7 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
       lights_(new QComboBox),
       kind_(new QComboBox),
       color_(new QPushButton),
-      shadow_(new QCheckBox("Casts a shadow")),
+      shadow_(new QCheckBox("Casts a shado&w")),
       parameters_(new ParameterPanel<scene::Light>(lightParameters())) {
     lights_->setObjectName("light");
     kind_->setObjectName("light.kind");
@@ -41,24 +41,24 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
             }
             layout->addLayout(row);
         };
-    addRow({{"light.front", "Front", "Only the lights on the camera's side", [this] { chooseSide(true); }},
-            {"light.back", "Back", "Only the lights on the far side: what comes through thin parts",
+    addRow({{"light.front", "Fr&ont", "Only the lights on the camera's side", [this] { chooseSide(true); }},
+            {"light.back", "&Back", "Only the lights on the far side: what comes through thin parts",
              [this] { chooseSide(false); }},
-            {"light.all", "All", "All lights of the scene", [this] { chooseAll(); }}});
+            {"light.all", "A&ll", "All lights of the scene", [this] { chooseAll(); }}});
     auto* form = new QFormLayout;
-    form->addRow("Light", lights_);
-    form->addRow("Kind", kind_);
-    form->addRow("Colour", color_);
+    form->addRow("L&ight", lights_);
+    form->addRow("&Kind", kind_);
+    form->addRow("&Colour", color_);
     form->addRow("", shadow_);
     layout->addLayout(form);
     layout->addWidget(parameters_);
-    addRow({{"light.addDirectional", "Add sun", "Add a directional light, from above on the right",
+    addRow({{"light.addDirectional", "Add s&un", "Add a directional light, from above on the right",
              [this] { add(scene::LightKind::Directional); }},
-            {"light.addSpot", "Add spot", "Add a spot light that shines on what the camera looks at",
+            {"light.addSpot", "Add &spot", "Add a spot light that shines on what the camera looks at",
              [this] { add(scene::LightKind::Spot); }},
-            {"light.addPoint", "Add point", "Add a point light above what the camera looks at",
+            {"light.addPoint", "Add &point", "Add a point light above what the camera looks at",
              [this] { add(scene::LightKind::Point); }},
-            {"light.remove", "Remove", "Remove this light", [this] { remove(); }}});
+            {"light.remove", "&Remove", "Remove this light", [this] { remove(); }}});
     auto* hint =
         new QLabel("Each light is a disc in the picture: drag it. A ring is behind what is seen. Drag a spot with "
                    "Shift to aim it, a spot or a point light with Ctrl to move it nearer or farther.");

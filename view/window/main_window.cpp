@@ -295,9 +295,20 @@ void MainWindow::showStatus() {
         measured_ = true;
         compare_->measure();
     }
-    if (loop_->isConverged() && !swatchTimer_.isActive() && isSwatchDue()) {
+    // A script draws it for its screenshots.
+    if (!quiet_ && loop_->isConverged() && !swatchTimer_.isActive() && isSwatchDue()) {
         swatchTimer_.start(0);
     }
+}
+
+void MainWindow::finishSwatch() {
+    if (!isSwatchDue()) {
+        return;
+    }
+    do {
+        drawSwatch();
+        QApplication::processEvents();
+    } while (swatchTimer_.isActive());
 }
 
 bool MainWindow::drawUntilStill(int milliseconds) {
@@ -314,7 +325,7 @@ bool MainWindow::drawUntilStill(int milliseconds) {
         if (loop_ && loop_->isConverged()) {
             loop_->wait();
             showStatus();
-            if (!compare_->isMeasuring() && !isSwatchDue()) {
+            if (!compare_->isMeasuring()) {
                 return true;
             }
         }

@@ -49,6 +49,8 @@ public:
     /// Writes the scene or the picture to a file; what goes wrong is said.
     bool writeScene(const QString& file);
     void writePicture(const QString& file);
+    /// Draws the panel Material's swatch, if it is seen and not what it should be.
+    void finishSwatch();
     /// Asks whether to go on with what a program that crashed has left.
     void offerRecovered();
     /// Edits of the last moments that are not in a file of the user's.

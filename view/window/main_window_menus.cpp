@@ -1,4 +1,5 @@
 // Menus, panels and status bar of the window.
+#include "view/model/window_colors.hpp"
 #include "view/window/compare_panel.hpp"
 #include "view/window/inspect_panel.hpp"
 #include "view/window/light_panel.hpp"
@@ -37,26 +38,22 @@ constexpr std::array mouse{
     MouseRow{"drag a light", "turn or move it; with Shift aim a spot, with Ctrl nearer or farther"},
     MouseRow{"drop", "open a scene, a model, a material or surroundings"}};
 
-QPalette darkPalette() {
-    const QColor window(45, 45, 48);
-    const QColor base(30, 30, 32);
-    const QColor text(228, 228, 228);
-    const QColor faint(140, 140, 140);
-    QPalette palette(text, window);
-    palette.setColor(QPalette::Base, base);
-    palette.setColor(QPalette::AlternateBase, QColor(38, 38, 41));
-    palette.setColor(QPalette::Text, text);
-    palette.setColor(QPalette::Button, QColor(58, 58, 62));
-    palette.setColor(QPalette::ButtonText, text);
-    palette.setColor(QPalette::ToolTipBase, QColor(70, 70, 74));
-    palette.setColor(QPalette::ToolTipText, text);
-    palette.setColor(QPalette::PlaceholderText, faint);
-    palette.setColor(QPalette::Highlight, QColor(61, 110, 180));
-    palette.setColor(QPalette::HighlightedText, Qt::white);
-    palette.setColor(QPalette::Link, QColor(120, 170, 240));
-    for (const QPalette::ColorRole role : {QPalette::Text, QPalette::WindowText, QPalette::ButtonText}) {
-        palette.setColor(QPalette::Disabled, role, faint);
+QPalette paletteOf(const WindowColors& colors) {
+    const auto shown = [](const ShownColor& color) { return QColor(color[0], color[1], color[2]); };
+    QPalette palette(shown(colors.text), shown(colors.window));
+    palette.setColor(QPalette::Base, shown(colors.base));
+    palette.setColor(QPalette::AlternateBase, shown(colors.alternateBase));
+    palette.setColor(QPalette::Button, shown(colors.button));
+    palette.setColor(QPalette::ToolTipBase, shown(colors.toolTip));
+    for (const QPalette::ColorRole role :
+         {QPalette::Text, QPalette::WindowText, QPalette::ButtonText, QPalette::ToolTipText}) {
+        palette.setColor(role, shown(colors.text));
+        palette.setColor(QPalette::Disabled, role, shown(colors.faint));
     }
+    palette.setColor(QPalette::PlaceholderText, shown(colors.faint));
+    palette.setColor(QPalette::Highlight, shown(colors.highlight));
+    palette.setColor(QPalette::HighlightedText, shown(colors.highlightedText));
+    palette.setColor(QPalette::Link, shown(colors.link));
     return palette;
 }
 
@@ -212,7 +209,7 @@ void MainWindow::reloadShaders() {
 void MainWindow::setDark(bool dark) {
     QSettings().setValue("dark", dark);
     QApplication::setStyle(QStyleFactory::create("Fusion"));
-    QApplication::setPalette(dark ? darkPalette() : QStyleFactory::create("Fusion")->standardPalette());
+    QApplication::setPalette(paletteOf(dark ? darkColors : lightColors));
 }
 
 void MainWindow::showShortcuts() {

@@ -59,8 +59,8 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     makeSource();
     auto* source = new QFormLayout;
-    source->addRow("Material", materials_);
-    source->addRow("Preset", presets_);
+    source->addRow("&Material", materials_);
+    source->addRow("&Preset", presets_);
     source->addRow(source_);
     auto* make = new QHBoxLayout;
     const auto addMaker = [&](const QString& name, const QString& text, const QString& toolTip, auto run) {
@@ -70,17 +70,19 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
         connect(button, &QPushButton::clicked, this, run);
         make->addWidget(button);
     };
-    addMaker("material.skin", "Skin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
-    addMaker("material.meanFreePath", "Mean free path …", "Layers of a medium by its colour and mean free path",
+    addMaker("material.skin", "S&kin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
+    addMaker("material.meanFreePath", "Mean &free path …", "Layers of a medium by its colour and mean free path",
              &MaterialPanel::makeMeanFreePath);
-    addMaker("material.slabs", "Slabs …", "Layers of a stack of physical slabs", &MaterialPanel::editSlabs);
-    addMaker("material.load", "Load …", "Read a material file", [this] {
+    addMaker("material.slabs", "Sla&bs …", "Layers of a stack of physical slabs", &MaterialPanel::editSlabs);
+    source->addRow(make);
+    make = new QHBoxLayout;
+    addMaker("material.load", "&Load …", "Read a material file", [this] {
         const QString file = QFileDialog::getOpenFileName(this, "Load a material", {}, materialFilter);
         if (!file.isEmpty()) {
             load(file);
         }
     });
-    addMaker("material.save", "Save …", "Write this material to a file", [this] { askAndSave(); });
+    addMaker("material.save", "&Save …", "Write this material to a file", [this] { askAndSave(); });
     source->addRow(make);
     layout->addLayout(source);
     swatch_->setObjectName("material.swatch");
@@ -98,8 +100,8 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     auto* use = new QVBoxLayout;
     use->addWidget(parameters_);
     auto* form = new QFormLayout;
-    form->addRow("Albedo", color_);
-    form->addRow("Albedo use", albedoUse_);
+    form->addRow("Albe&do", color_);
+    form->addRow("Albedo &use", albedoUse_);
     form->addRow("Radius", radius_);
     use->addLayout(form);
     layout->addWidget(group("Use", use));

@@ -223,6 +223,7 @@ void takeScreenshot(MainWindow& window, const QJsonObject& step) {
     if (window.loop() == nullptr) {
         refuse("there is no picture");
     }
+    window.finishSwatch();
     QPixmap shot = window.grab();
     const QRect area(window.centralWidget()->pos(), window.centralWidget()->size());
     QPainter painter(&shot);
