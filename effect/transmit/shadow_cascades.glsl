@@ -1,4 +1,4 @@
-// Light through a body by several shadow maps of one light. Needs lightThrough, `lights` and what it needs.
+// Light through a body by the shadow maps of one light. Needs lightThrough, `lights` and what it needs.
 
 // How far a point is inside a map: 0 at its border, 1 in the middle, along the axis on which it is nearer to the border.
 float depthInMap(LightParameters cascade, ShadowPoint point) {
@@ -18,21 +18,37 @@ float cascadeShare(LightParameters light, LightParameters cascade, Receiver rece
     return point.inside ? clamp(remaining / blend, 0.0, 1.0) : 0.0;
 }
 
-// As lightThrough. The last cascade that has the point tells what those before it leave. `point` becomes that of
-// the coarsest map that was asked; it is inside where one was.
-vec4 throughCascades(LightParameters light, Receiver receiver, vec3 toLight, float cosine, inout ShadowPoint point) {
+// What a light's maps say of a receiver.
+struct MapsAnswer {
+    vec4 through;    // as lightThrough's
+    float texelSize; // scene units, of the coarsest map that was asked
+    bool isTold;     // whether a map has the receiver
+};
+
+// The light's own map or its cascades, whose last that has the receiver tells what those before it leave. One call of
+// lightThrough for all keeps the code small.
+MapsAnswer throughMaps(LightParameters light, Receiver receiver, vec3 toLight, float cosine) {
+    bool inCascades = generalLights && light.cascadeCount > 0u;
+    uint count = inCascades ? light.cascadeCount : light.shadowMap == noShadowMap ? 0u : 1u;
     vec4 sum = vec4(0.0);
+    float texelSize = 0.0;
     float left = 1.0;
-    for (uint i = 0u; i < light.cascadeCount && left > 0.0; ++i) {
-        LightParameters cascade = lights[light.firstCascade + i];
-        ShadowPoint there = project(cascade, receiver);
-        float share = left * cascadeShare(light, cascade, receiver, there);
-        for (bool asked = share > 0.0; asked; asked = false) {
-            sum += share * lightThrough(cascade, receiver, there, toLight, cosine);
-            there.texelSize = max(there.texelSize, point.texelSize);
-            point = there;
+    for (uint i = 0u; i < count && left > 0.0; ++i) {
+        LightParameters map = light;
+        if (inCascades) {
+            map = lights[light.firstCascade + i];
+        }
+        ShadowPoint point = project(map, receiver);
+        float share = point.inside ? left : 0.0;
+        if (inCascades) {
+            share = left * cascadeShare(light, map, receiver, point);
+        }
+        for (bool asked = share > 0.0; asked; asked = false) { // software devices skip it where no pixel is inside
+            sum += share * lightThrough(map, receiver, point, toLight, cosine);
+            texelSize = max(texelSize, point.texelSize);
         }
         left -= share;
     }
-    return left < 1.0 ? sum / (1.0 - left) : vec4(0.0, 0.0, 0.0, -1.0);
+    bool isTold = left < 1.0;
+    return MapsAnswer(isTold ? sum / (1.0 - left) : vec4(0.0, 0.0, 0.0, -1.0), texelSize, isTold);
 }

@@ -264,29 +264,16 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     if (cosine <= 0.0 || !any(greaterThan(incidence.irradiance, vec3(0.0)))) {
         return vec4(0.0, 0.0, 0.0, -1.0);
     }
-    vec4 through = vec4(0.0, 0.0, 0.0, -1.0);
-    ShadowPoint point;
-    point.inside = false;
-    point.texelSize = 0.0;
-    if (light.shadowMap != noShadowMap) {
-        point = project(light, receiver);
-    }
     if (isFrontFaceCulled(light) && receiver.authored <= 0.0) {
-        return through;
+        return vec4(0.0, 0.0, 0.0, -1.0);
     }
-    bool inCascades = generalLights && light.cascadeCount > 0u;
-    for (bool inside = inCascades; inside; inside = false) {
-        through = throughCascades(light, receiver, incidence.toLight, cosine, point);
-    }
-    // Software devices skip it where no pixel is inside.
-    for (bool inside = point.inside && !inCascades; inside; inside = false) {
-        through = lightThrough(light, receiver, point, incidence.toLight, cosine);
-    }
-    if (!point.inside && receiver.authored > 0.0) {
+    MapsAnswer answer = throughMaps(light, receiver, incidence.toLight, cosine);
+    vec4 through = answer.through;
+    if (!answer.isTold && receiver.authored > 0.0) {
         through = vec4(transmittance(receiver.material, receiver.authored) * cosine, receiver.authored);
     }
     for (bool asks = mayCountTwice(through.rgb); asks; asks = false) {
-        float tolerance = sameSurfaceTexels * point.texelSize * view.mmPerUnit + sameSurfaceShare * through.w +
+        float tolerance = sameSurfaceTexels * answer.texelSize * view.mmPerUnit + sameSurfaceShare * through.w +
                           sameSurfaceSpread * tables[receiver.material].spread;
         through.rgb *= hiddenShare(receiver, incidence.toLight, through.w, tolerance);
     }
