@@ -95,7 +95,7 @@ done
 for kind in static shared; do
     say "add_subdirectory, $kind"
     shared=$([ $kind = shared ] && echo ON || echo OFF)
-    clean cmake -S "$consumer" -B subdirectory -DCMAKE_BUILD_TYPE=Debug -DNACRE_SOURCE="$work/nacre" \
+    clean cmake -S "$consumer" -B subdirectory -DCMAKE_BUILD_TYPE=Debug -DNACRE_SOURCE="$work/nacre" -DCMAKE_UNITY_BUILD=ON \
         -DBUILD_SHARED_LIBS="$shared" > log.txt
     clean cmake --build subdirectory > log.txt || { cat log.txt; exit 1; }
     run subdirectory/consumer
