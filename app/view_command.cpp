@@ -12,6 +12,7 @@
 #include <charconv>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 namespace nacre::app {
 
@@ -112,7 +113,9 @@ void view(const ViewOptions& options) {
     settings.input = options.input;
     settings.load = [&options] {
         scene::Scene scene = makeScene(options);
-        scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
+        const scene::Camera camera = makeCamera(options, scene);
+        std::erase_if(scene.cameras, [&](const scene::Camera& other) { return other.name == camera.name; });
+        scene.cameras.insert(scene.cameras.begin(), camera);
         return scene;
     };
     settings.device = options.device;

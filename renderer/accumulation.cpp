@@ -47,8 +47,14 @@ float between(const nacre::Image& image, double x, double y, std::size_t channel
 
 } // namespace
 
-Accumulation::Accumulation(Gpu& gpu, vk::Extent2D capacity)
-    : gpu_(gpu), capacity_(capacity), nearest_(gpu.device, vk::SamplerCreateInfo{}) {
+Accumulation::Accumulation(Gpu& gpu, vk::Extent2D capacity, std::size_t materials, std::uint32_t framesInFlight)
+    : gpu_(gpu),
+      capacity_(capacity),
+      nearest_(gpu.device, vk::SamplerCreateInfo{}),
+      radii_(gpu, "radii", std::max<std::size_t>(materials, 1) * sizeof(glm::vec4),
+             vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight),
+      marks_(gpu, "marks", ShowLook::mostMarks * sizeof(shared::Mark), vk::BufferUsageFlagBits::eStorageBuffer,
+             framesInFlight) {
     const std::uint64_t pixels = pixelsOf(capacity);
     given_ = Buffer(gpu, "given picture", pixels * sizeof(glm::vec4), vk::BufferUsageFlagBits::eStorageBuffer,
                     Buffer::Place::Constants);
@@ -65,7 +71,8 @@ std::size_t Accumulation::attach(const FrameImages& images) {
                                               pixels(images.irradiance), pixels(images.scattered),
                                               pixels(images.transmitted), pixels(images.albedo),
                                               pixels(images.shadingNormal), pixels(images.depth), pixels(thickness),
-                                              pixels(images.materialId), storage(given_), storage(sums_)},
+                                              pixels(images.materialId), storage(given_), storage(sums_),
+                                              pixels(images.shadowMaps), storage(radii_)},
                          static_cast<std::uint32_t>(sizeof(shared::AccumulateConstants)));
     return passes_.size() - 1;
 }
@@ -76,7 +83,7 @@ bool Accumulation::hasRoomFor(vk::Extent2D window) const {
 
 void Accumulation::makeRoomFor(vk::Extent2D window) {
     pixels_ = Buffer(gpu_, "window", pixelsOf(window) * sizeof(std::uint32_t), storageAndCopies, Buffer::Place::Device);
-    show_ = ComputePass(gpu_, "show sides", show_sides_comp_spv, {storage(sums_), storage(pixels_)},
+    show_ = ComputePass(gpu_, "show sides", show_sides_comp_spv, {storage(sums_), storage(pixels_), storage(marks_)},
                         static_cast<std::uint32_t>(sizeof(shared::ShowConstants)));
 }
 
@@ -94,41 +101,80 @@ void Accumulation::setGiven(const nacre::Image& image, vk::Extent2D extent) {
     }
 }
 
-void Accumulation::recordSample(const vk::raii::CommandBuffer& commandBuffer, std::size_t pass, std::uint32_t side,
-                                vk::Extent2D extent, const SampleLook& look, const EffectUse& use) {
+void Accumulation::setRadii(std::uint32_t frame, std::span<const float> radii) {
+    auto* values = reinterpret_cast<glm::vec4*>(radii_.mapped(frame));
+    for (const float radius : radii) {
+        *values++ = glm::vec4(radius);
+    }
+}
+
+void Accumulation::recordSample(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, std::size_t pass,
+                                std::uint32_t side, vk::Extent2D extent, const SampleLook& look, const EffectUse& use) {
     Side& target = sides_[side];
     if (target.extent != extent) {
         target = {extent, 0};
     }
     const shared::AccumulateConstants constants{
-        .image = {static_cast<std::uint32_t>(look.image), target.samples, 0, look.givenIsDisplayed ? 1u : 0u},
-        .size = {extent.width, extent.height, firstPixel(side), 0},
+        .image = {static_cast<std::uint32_t>(look.image), target.samples, look.shadowLayer,
+                  look.givenIsDisplayed ? 1u : 0u},
+        .size = {extent.width, extent.height, firstPixel(side), static_cast<std::uint32_t>(look.backdrop)},
         .effect = {use.scatter ? 1u : 0u, use.scatteredHasAlbedo ? 1u : 0u, use.transmit ? 1u : 0u,
                    static_cast<std::uint32_t>(look.curve)},
         .range = {look.depthRange.x, look.image == ShownImage::Thickness ? look.thicknessRange : look.depthRange.y,
-                  look.exposure, 0}};
+                  look.exposure, look.pixelScale}};
     recordBarrierBefore(commandBuffer);
-    passes_[pass].record(commandBuffer, 0, extent, bytesOf(constants));
+    passes_[pass].record(commandBuffer, frame, extent, bytesOf(constants));
     ++target.samples;
 }
 
-void Accumulation::recordShow(const vk::raii::CommandBuffer& commandBuffer, vk::Extent2D window, const ShowLook& look,
-                              bool swapped) {
+void Accumulation::writeMarks(std::uint32_t frame, std::span<const PictureMark> marks) {
+    auto* written = reinterpret_cast<shared::Mark*>(marks_.mapped(frame));
+    for (const PictureMark& mark : marks) {
+        *written++ = {glm::vec4(mark.place, mark.end), glm::vec4(mark.color, mark.hollow ? -mark.radius : mark.radius)};
+    }
+}
+
+void Accumulation::recordShow(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, vk::Extent2D window,
+                              const ShowLook& look, bool swapped) {
     using usage::Access;
     using usage::Stage;
     const bool hasSecond = sides_[1].extent.width > 0;
+    const std::size_t marks = std::min(look.marks.size(), ShowLook::mostMarks);
+    writeMarks(frame, std::span(look.marks).first(marks));
     shared::ShowConstants constants{.place = {window.width, window.height,
                                               static_cast<std::uint32_t>(hasSecond ? look.sides : ShownSides::First),
                                               swapped ? 1u : 0u},
                                     .sides = {},
-                                    .divider = {look.divider, look.differenceGain, 0, 0}};
+                                    .divider = {look.divider, look.differenceGain, static_cast<float>(marks), 0}};
     for (std::uint32_t side = 0; side < sideCount; ++side) {
         constants.sides[side] = {sides_[side].extent.width, sides_[side].extent.height, firstPixel(side), 0};
     }
     recordBarrierBefore(commandBuffer);
-    show_.record(commandBuffer, 0, window, bytesOf(constants));
+    show_.record(commandBuffer, frame, window, bytesOf(constants));
     recordBarrier(commandBuffer, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eTransfer,
                   Access::eTransferRead);
+}
+
+nacre::Image Accumulation::readWindow(vk::Extent2D window, const ShowLook& look) {
+    if (!hasRoomFor(window)) {
+        makeRoomFor(window);
+    }
+    const std::uint64_t bytes = pixelsOf(window) * sizeof(std::uint32_t);
+    const Buffer host(gpu_, "read window", bytes, vk::BufferUsageFlagBits::eTransferDst, Buffer::Place::ReadBack);
+    gpu_.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
+        recordShow(commandBuffer, 0, window, look, false);
+        commandBuffer.copyBuffer(pixels_.handle(), host.handle(), vk::BufferCopy{.size = bytes});
+        recordBarrier(commandBuffer, usage::Stage::eTransfer, usage::Access::eTransferWrite, usage::Stage::eHost,
+                      usage::Access::eHostRead);
+    });
+    nacre::Image result = makeImage(window.width, window.height, {"R", "G", "B"}, Encoding::Srgb);
+    for (std::uint64_t pixel = 0; pixel < pixelsOf(window); ++pixel) {
+        for (std::uint64_t channel = 0; channel < 3; ++channel) {
+            result.values[3 * pixel + channel] =
+                static_cast<float>(std::to_integer<std::uint32_t>(host.mapped()[4 * pixel + channel])) / 255;
+        }
+    }
+    return result;
 }
 
 SidePicture Accumulation::read(std::uint32_t side) {

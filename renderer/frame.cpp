@@ -142,7 +142,7 @@ Frame::Implementation::Implementation(Gpu& device, const scene::Scene& input, co
       picture(makePicture(settings)),
       subsurface(gpu,
                  {picture->extent, limits.framesInFlight, 1 + settings.effectRepetitions, limits.lights, metersPerUnit,
-                  settings.technique},
+                  settings.technique, limits.secondSurfaces},
                  input.materials),
       recorded(limits.framesInFlight) {
     subsurface.prepare(settings);
@@ -441,7 +441,8 @@ FrameImages Frame::images() {
             .depth = gbuffer.image(GBuffer::Depth),
             .shadingNormal = gbuffer.image(GBuffer::ShadingNormal),
             .albedo = gbuffer.image(GBuffer::Albedo),
-            .materialId = gbuffer.image(GBuffer::MaterialId)};
+            .materialId = gbuffer.image(GBuffer::MaterialId),
+            .shadowMaps = implementation_->shadowMaps.image()};
 }
 
 const EffectUse& Frame::effectUse(std::uint32_t frame) const {

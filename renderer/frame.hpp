@@ -19,6 +19,7 @@ struct FrameLimits {
     std::uint32_t lights = 0;         ///< [0 … 1024] most lights; never less than the scene's
     std::uint32_t shadowLayers = 0;   ///< most layers of shadow maps: one a directional light or spot that casts a
                                       ///< shadow, six a point light; never less than the scene's
+    bool secondSurfaces = false;      ///< materials may come to ask for second surfaces (asksForSecondSurfaces)
 };
 
 /// From where a frame is seen.
@@ -45,6 +46,7 @@ struct FrameImages {
     Image& shadingNormal; ///< world space; w is 0 where there is nothing. RGBA16F
     Image& albedo;        ///< diffuse albedo. RGBA16F
     Image& materialId;    ///< index into Scene::materials + 1; 0 = none. R16_UINT
+    Image& shadowMaps;    ///< a layer for each map: distance, 1 where nothing stands. R32F
 };
 
 /// How the effect went into the images.

@@ -13,6 +13,11 @@ struct RendererError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The device is gone: everything made with it has to be made anew, with another Device.
+struct DeviceLost : RendererError {
+    DeviceLost() : RendererError("the graphics device has stopped working and has to be opened again") {}
+};
+
 struct DeviceDescription {
     std::string name;
     std::string kind; ///< "discrete", "integrated", "virtual", "software" or "other"

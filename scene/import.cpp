@@ -64,6 +64,10 @@ Scene readModel(const std::filesystem::path& file, std::span<const std::uint8_t>
 
 } // namespace
 
+bool isSceneFile(const std::filesystem::path& file) {
+    return formatOf(file, readFile(file)) == Format::SceneFile;
+}
+
 Scene loadModel(const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = readFile(file);
     const Format format = formatOf(file, bytes);
@@ -76,11 +80,12 @@ Scene loadModel(const std::filesystem::path& file) {
 Scene load(const std::filesystem::path& file) {
     const std::vector<std::uint8_t> bytes = readFile(file);
     const Format format = formatOf(file, bytes);
-    Scene scene = format == Format::SceneFile ? readSceneFile(file, bytes) : readModel(file, bytes, format);
-    if (format != Format::SceneFile) {
-        fitLights(scene);
-        tellOrigin(scene, file);
+    if (format == Format::SceneFile) {
+        return readSceneFile(file, bytes);
     }
+    Scene scene = readModel(file, bytes, format);
+    fitLights(scene);
+    tellOrigin(scene, file);
     addMissingViewAndLights(scene);
     return scene;
 }

@@ -14,6 +14,9 @@ inline constexpr const char* unitNote = "does not state its unit";
 /// Throws SceneError with one sentence that names the file and the field.
 Scene load(const std::filesystem::path& file);
 
+/// Whether `load` takes the file for a scene file. Throws SceneError where it cannot be read.
+bool isSceneFile(const std::filesystem::path& file);
+
 /// A model alone, exactly as the file has it (no camera or lights added).
 Scene loadModel(const std::filesystem::path& file);
 

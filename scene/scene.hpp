@@ -76,6 +76,8 @@ struct Surface {
     float thickness = -1;
     /// Index into Scene::materials; `none` = no subsurface scattering.
     std::uint32_t material = none;
+    /// Which of a scene file's `models` brought it; 0 where the scene is of one model.
+    std::uint32_t model = 0;
 };
 
 struct Instance {
@@ -118,6 +120,7 @@ struct Camera {
 /// Image-based light: an equirectangular image, or the built-in sky when there is none.
 struct Environment {
     std::optional<Image> image; ///< linear, 4 channels RGBA, alpha unused
+    std::string file;           ///< that the image was read from
     float intensity = 1;
     float rotation = 0; ///< [rad] about +Y
     glm::vec3 zenith{0.25f, 0.32f, 0.45f};

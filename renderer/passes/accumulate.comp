@@ -21,6 +21,10 @@ layout(set = 0, binding = 10, std430) readonly buffer Given {
 layout(set = 0, binding = 11, std430) buffer Sums {
     vec4 sums[]; // two a pixel: for a display, then light
 };
+layout(set = 0, binding = 12) uniform sampler2DArray shadowMaps;
+layout(set = 0, binding = 13, std430) readonly buffer Radii {
+    vec4 radii[]; // of each material, from 1: rms radius of its widest channel, mm
+};
 layout(push_constant) uniform Push {
     AccumulateConstants constants;
 };
@@ -31,6 +35,28 @@ const float pi = 3.14159265358979;
 vec3 idColor(uint id) {
     float hue = fract(float(id) * 0.61803399);
     return id == 0u ? vec3(0.05) : clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.1, 1.0);
+}
+
+/// px that light of the pixel's material travels there.
+float footprint(ivec2 pixel, uint material) {
+    float atDepth = constants.range.w > 0.0 ? texelFetch(depthImage, pixel, 0).r : -1.0;
+    return material == 0u ? 0.0 : constants.range.w / atDepth * radii[material - 1u].x;
+}
+
+/// The map as a square in the middle of the picture, as bright as what stands there is near.
+float shadowMapAt(ivec2 pixel) {
+    vec2 size = vec2(constants.size.xy);
+    vec2 place = (vec2(pixel) + 0.5 - 0.5 * size) / min(size.x, size.y) + 0.5;
+    ivec2 texels = textureSize(shadowMaps, 0).xy;
+    return all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(1.0)))
+               ? 1.0 - texelFetch(shadowMaps, ivec3(ivec2(place * vec2(texels)), int(constants.image.z)), 0).r
+               : 0.0;
+}
+
+/// Footprints from 1/4 px, black, to 256 px, white, as the heat of their logarithm.
+vec3 footprintColor(float pixels) {
+    float share = pixels > 0.0 ? clamp((log2(pixels) + 2.0) / 10.0, 0.0, 1.0) : 0.0;
+    return clamp(vec3(3.0 * share - 0.6, 1.6 * share * share, share < 0.4 ? 2.0 * share : 3.0 * share - 2.0), 0.0, 1.0);
 }
 
 vec3 lightOf(ivec2 pixel, uint index) {
@@ -66,12 +92,19 @@ vec3 lightOf(ivec2 pixel, uint index) {
         return constants.effect.z != 0u ? vec3(texelFetch(thicknessImage, pixel, 0).r / constants.range.y) : vec3(0.0);
     case shownMaterial:
         return isSurface ? idColor(material) : vec3(0.0);
+    case shownFootprint:
+        return vec3(footprint(pixel, material));
+    case shownShadowMap:
+        return vec3(shadowMapAt(pixel));
     }
     return given[index].rgb;
 }
 
 /// What a display shows of it, before sRGB encoding. Images that are not light are shown as they are.
 vec3 shown(vec3 light) {
+    if (constants.image.x == shownFootprint) {
+        return footprintColor(light.r);
+    }
     bool isLight = constants.image.x <= shownSpecular || (constants.image.x == shownGiven && constants.image.w == 0u);
     if (!isLight) {
         return clamp(light, 0.0, 1.0);
@@ -89,6 +122,11 @@ void main() {
     uint place = 2u * (constants.size.z + index);
     vec3 light = lightOf(ivec2(pixel), index);
     vec4 display = vec4(shown(light), 1.0);
+    if (constants.image.x == shownPicture && constants.size.w != backdropSurroundings &&
+        texelFetch(shadingNormalImage, ivec2(pixel), 0).w == 0.0) {
+        const float backdrops[] = {0.0, 0.0, 0.18, 1.0};
+        display.rgb = vec3(backdrops[constants.size.w]);
+    }
     vec4 sum = vec4(light, 1.0);
     if (constants.image.y > 0u) {
         display += sums[place];

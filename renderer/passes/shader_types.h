@@ -100,7 +100,12 @@ NACRE_CONSTANT shownNormal = 7;
 NACRE_CONSTANT shownDepth = 8;
 NACRE_CONSTANT shownThickness = 9;
 NACRE_CONSTANT shownMaterial = 10;
-NACRE_CONSTANT shownGiven = 11;
+NACRE_CONSTANT shownFootprint = 11;
+NACRE_CONSTANT shownShadowMap = 12;
+NACRE_CONSTANT shownGiven = 13;
+
+/// AccumulateConstants::size.w, as Backdrop.
+NACRE_CONSTANT backdropSurroundings = 0;
 
 /// AccumulateConstants::effect.w, as ToneCurve.
 NACRE_CONSTANT curveNeutral = 0;
@@ -112,21 +117,30 @@ NACRE_CONSTANT showDifference = 2;
 
 /// A sample that is added to a side.
 struct AccumulateConstants {
-    uvec4 image;  ///< x: which, y: samples that are there, w: 1 where a given picture is what a display shows
-    uvec4 size;   ///< x, y: pixels, z: the side's first pixel among all
+    uvec4 image;  ///< x: which, y: samples that are there, z: layer of the shadow maps, w: 1 where a given picture is
+                  ///< what a display shows
+    uvec4 size;   ///< x, y: pixels, z: the side's first pixel among all, w: backdrop
     uvec4 effect; ///< x: scatter, y: scattered has albedo, z: transmit, w: tone curve
-    vec4 range;   ///< x, y: values at the ends of depth and thickness, z: exposure
+    vec4 range;   ///< x, y: values at the ends of depth and thickness, z: exposure, w: px per mm at a depth of 1;
+                  ///< negative: at all depths
+};
+
+/// A mark on top of the picture: a disc, and a line from it.
+struct Mark {
+    vec4 place; ///< [0, 1] of the picture, right and down: x, y: the disc, z, w: the line's end
+    vec4 color; ///< rgb: as a display shows it, sRGB encoded; w: radius of the disc, px; negative: a ring
 };
 
 /// The window's pixels.
 struct ShowConstants {
     uvec4 place;    ///< x, y: pixels, z: what, w: 1 for B G R A
     uvec4 sides[2]; ///< x, y: pixels, z: first pixel
-    vec4 divider;   ///< x: where the second side begins, [0, 1]; y: what a difference is multiplied by
+    vec4 divider;   ///< x: where the second side begins, [0, 1]; y: what a difference is multiplied by; z: marks
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(AccumulateConstants) == 64);
+static_assert(sizeof(Mark) == 32);
 static_assert(sizeof(ShowConstants) == 64);
 static_assert(sizeof(ViewConstants) == 176);
 static_assert(sizeof(SurfaceConstants) == 96);

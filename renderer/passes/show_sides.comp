@@ -11,6 +11,9 @@ layout(set = 0, binding = 0, std430) readonly buffer Sums {
 layout(set = 0, binding = 1, std430) writeonly buffer Pixels {
     uint pixels[];
 };
+layout(set = 0, binding = 2, std430) readonly buffer Marks {
+    Mark marks[];
+};
 layout(push_constant) uniform Push {
     ShowConstants constants;
 };
@@ -37,6 +40,31 @@ vec3 colorAt(uvec4 side, vec2 place) {
 /// Black over red and yellow to white.
 vec3 heat(float share) {
     return clamp(vec3(3.0 * share, 3.0 * share - 1.0, 3.0 * share - 2.0), 0.0, 1.0);
+}
+
+/// Distance of a point from the line between two others.
+float fromLine(vec2 point, vec2 begin, vec2 end) {
+    vec2 along = end - begin;
+    float share = clamp(dot(point - begin, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
+    return distance(point, begin + share * along);
+}
+
+/// The mark with its dark rim, over `color`. `distance` is to where it is drawn, px.
+vec3 over(vec3 color, vec3 mark, float fromMark) {
+    vec3 rim = mix(vec3(0.0), color, 0.35 + 0.65 * smoothstep(1.0, 2.5, fromMark));
+    return mix(mark, rim, smoothstep(-0.5, 0.5, fromMark));
+}
+
+/// Everything that marks[] draw over this pixel; `corner` and `size` are the picture's in the window, px.
+vec3 marked(vec3 color, vec2 pixel, vec2 corner, vec2 size) {
+    for (int i = 0; i < int(constants.divider.z); ++i) {
+        vec2 disc = corner + marks[i].place.xy * size;
+        float radius = abs(marks[i].color.w);
+        color = over(color, marks[i].color.rgb, fromLine(pixel, disc, corner + marks[i].place.zw * size) - 1.0);
+        float fromDisc = distance(pixel, disc) - radius;
+        color = over(color, marks[i].color.rgb, marks[i].color.w < 0.0 ? abs(fromDisc + 1.5) - 1.5 : fromDisc);
+    }
+    return color;
 }
 
 uint pack(vec3 color) {
@@ -69,5 +97,6 @@ void main() {
         }
         color += (noise(pixel) - 0.5) / 255.0;
     }
+    color = marked(color, vec2(pixel) + 0.5, 0.5 * (window - shape * zoom), shape * zoom);
     pixels[uint(pixel.y) * constants.place.x + uint(pixel.x)] = pack(color);
 }

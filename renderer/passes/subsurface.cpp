@@ -81,8 +81,8 @@ SubsurfaceImages::SubsurfaceImages(Gpu& gpu, vk::Extent2D extent, bool withThick
 
 Subsurface::Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials)
     : gpu_(gpu), info_(info), materials_(checked(materials)), message_(std::make_unique<std::string>()) {
-    createContext(techniquesFor(info.technique, materials));
-    setMaterials(materials);
+    createContext(techniquesFor(info.technique, materials) |
+                  (info.secondSurfaces ? 1u << NACRE_TECHNIQUE_BANK_SURFACES : 0));
 }
 
 void Subsurface::createContext(std::uint32_t techniques) {
@@ -100,6 +100,10 @@ void Subsurface::createContext(std::uint32_t techniques) {
     check(nacreCreateContext(&contextInfo, &context));
     context_.reset(context);
     techniques_ = techniques;
+    transmissions_.resize(materials_.size() + 1);
+    for (std::size_t i = 0; i < materials_.size(); ++i) {
+        setMaterial(i, materials_[i]);
+    }
 }
 
 void Subsurface::check(NacreResult result) const {
@@ -111,19 +115,20 @@ void Subsurface::check(NacreResult result) const {
 
 void Subsurface::setMaterials(const std::vector<Material>& materials) {
     checked(materials);
-    std::vector<std::vector<NacreLayer>> layers(materials.size());
-    std::vector<NacreMaterial> converted;
-    std::vector<shared::TransmissionConstants> transmissions(1);
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        converted.push_back(effectMaterial(materials[i], layers[i]));
-        transmissions.push_back(makeTransmission(materials[i]));
-    }
-    if (!converted.empty()) {
-        check(nacreSetMaterials(context_.get(), 1, static_cast<std::uint32_t>(converted.size()), converted.data()));
+        if (!(materials[i] == materials_[i])) {
+            setMaterial(i, materials[i]);
+        }
     }
     materials_ = materials;
     bakedRadius_.reset();
-    transmissions_ = std::move(transmissions);
+}
+
+void Subsurface::setMaterial(std::size_t index, const Material& material) {
+    std::vector<NacreLayer> layers;
+    const NacreMaterial converted = effectMaterial(material, layers);
+    check(nacreSetMaterials(context_.get(), static_cast<std::uint32_t>(index) + 1, 1, &converted));
+    transmissions_[index + 1] = makeTransmission(material);
 }
 
 NacreView Subsurface::makeView(const View& view) const {
@@ -230,7 +235,6 @@ void Subsurface::prepare(const EffectSettings& settings) {
     const std::uint32_t needed = techniques_ | techniquesFor(settings.technique, materials_);
     if (needed != techniques_) {
         createContext(needed);
-        setMaterials(materials_);
     }
     if (bakes(settings) && bakedRadius_ != settings.baselines.thesisRadius) {
         check(nacreBakeThesisKernel(context_.get(), 1, settings.baselines.thesisRadius));

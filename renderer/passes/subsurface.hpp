@@ -41,6 +41,7 @@ public:
         std::uint32_t maxLights = 1;
         float metersPerUnit = 1;
         NacreTechnique technique = NACRE_TECHNIQUE_DEFAULT; ///< the first; `prepare` adds others
+        bool secondSurfaces = false;                        ///< `bank-surfaces` as well
     };
 
     Subsurface(Gpu& gpu, const Info& info, const std::vector<Material>& materials);
@@ -70,7 +71,7 @@ public:
     bool isPrepared(const EffectSettings& settings) const;
     /// Compiles what is missing; the device must have finished with all frames.
     void prepare(const EffectSettings& settings);
-    /// Replaces all materials, for frames that begin later.
+    /// Replaces the materials that are not what they were (as many as before), for frames that begin later.
     void setMaterials(const std::vector<Material>& materials);
     /// The device must have finished with all frames.
     void resize(vk::Extent2D extent);
@@ -86,7 +87,8 @@ private:
     };
 
     void check(NacreResult result) const;
-    /// Replaces the context, if there is one, by one for these techniques.
+    void setMaterial(std::size_t index, const Material& material);
+    /// Replaces the context, if there is one, by one for these techniques, with the materials in it.
     void createContext(std::uint32_t techniques);
     void scatter(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs, const EffectSettings& settings);
     void transmit(const vk::raii::CommandBuffer& commandBuffer, const Inputs& inputs, const EffectSettings& settings);

@@ -176,22 +176,27 @@ void Image::forget() {
                   vk::ImageLayout::eUndefined};
 }
 
+vk::ImageMemoryBarrier2 barrierBetween(vk::Image image, const vk::ImageSubresourceRange& range, const Usage& from,
+                                       const Usage& to) {
+    return {.srcStageMask = from.stages,
+            .srcAccessMask = from.access,
+            .dstStageMask = to.stages,
+            .dstAccessMask = to.access,
+            .oldLayout = from.layout,
+            .newLayout = to.layout,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image,
+            .subresourceRange = range};
+}
+
 void Image::prepare(const Usage& next, std::vector<vk::ImageMemoryBarrier2>& barriers) {
     const bool covered = (lastUsage_.stages & next.stages) == next.stages &&
                          (lastUsage_.access & next.access) == next.access && lastUsage_.layout == next.layout;
     if (covered && !lastUsage_.writes() && !next.writes()) {
         return;
     }
-    barriers.push_back({.srcStageMask = lastUsage_.stages,
-                        .srcAccessMask = lastUsage_.access,
-                        .dstStageMask = next.stages,
-                        .dstAccessMask = next.access,
-                        .oldLayout = lastUsage_.layout,
-                        .newLayout = next.layout,
-                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                        .image = *image_,
-                        .subresourceRange = range()});
+    barriers.push_back(barrierBetween(*image_, range(), lastUsage_, next));
     const bool readAgain = !lastUsage_.writes() && !next.writes() && lastUsage_.layout == next.layout;
     // Readers add up: a later write waits for all of them.
     lastUsage_ =

@@ -127,6 +127,10 @@ struct ImageUse {
     const Usage& usage;
 };
 
+/// The barrier between two uses of an image.
+vk::ImageMemoryBarrier2 barrierBetween(vk::Image image, const vk::ImageSubresourceRange& range, const Usage& from,
+                                       const Usage& to);
+
 /// One pipeline barrier that makes all these images ready.
 void prepare(const vk::raii::CommandBuffer& commandBuffer, std::initializer_list<ImageUse> uses);
 void prepare(const vk::raii::CommandBuffer& commandBuffer, std::span<const ImageUse> uses);

@@ -31,6 +31,17 @@ vk::CompositeAlphaFlagBitsKHR chooseAlpha(vk::CompositeAlphaFlagsKHR supported) 
     return Alpha::eOpaque;
 }
 
+/// Runs `action`, and says of what it throws that the window is concerned.
+template <typename Action> auto translateWindowErrors(const Action& action) {
+    try {
+        return translateErrors(action);
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const RendererError& error) {
+        throw RendererError(std::string("the window cannot show pictures: ") + error.what());
+    }
+}
+
 } // namespace
 
 std::vector<std::string> Swapchain::deviceExtensions() {
@@ -48,7 +59,7 @@ Swapchain::Swapchain(Gpu& gpu, vk::SurfaceKHR surface) : gpu_(gpu), surface_(sur
 }
 
 bool Swapchain::rebuild(vk::Extent2D wanted) {
-    return translateErrors([&] {
+    return translateWindowErrors([&] {
         const vk::SurfaceCapabilitiesKHR can = gpu_.physicalDevice.getSurfaceCapabilitiesKHR(surface_);
         vk::Extent2D extent = can.currentExtent;
         if (extent.width == anyExtent) {
@@ -93,7 +104,7 @@ bool Swapchain::rebuild(vk::Extent2D wanted) {
 }
 
 std::optional<Swapchain::Acquired> Swapchain::acquire(vk::Semaphore free) {
-    return translateErrors([&]() -> std::optional<Acquired> {
+    return translateWindowErrors([&]() -> std::optional<Acquired> {
         try {
             const auto [result, index] = current_->swapchain.acquireNextImage(0, free);
             if (result != vk::Result::eSuccess && result != vk::Result::eSuboptimalKHR) {
@@ -109,7 +120,7 @@ std::optional<Swapchain::Acquired> Swapchain::acquire(vk::Semaphore free) {
 }
 
 void Swapchain::present(const Acquired& image) {
-    translateErrors([&] {
+    translateWindowErrors([&] {
         const vk::SwapchainKHR swapchain = *current_->swapchain;
         try {
             static_cast<void>(gpu_.queue.presentKHR({.waitSemaphoreCount = 1,

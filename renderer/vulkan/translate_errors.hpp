@@ -14,6 +14,8 @@ template <typename Action> auto translateErrors(const Action& action) {
         throw RendererError("the Vulkan device has run out of memory");
     } catch (const vk::OutOfHostMemoryError&) {
         throw RendererError("there is not enough memory for the Vulkan driver");
+    } catch (const vk::DeviceLostError&) {
+        throw DeviceLost();
     } catch (const vk::SystemError& error) {
         throw RendererError(std::string("a Vulkan call failed: ") + error.what());
     }

@@ -2,6 +2,7 @@
 
 #include "image/image_file.hpp"
 #include "scene/default_view.hpp"
+#include "scene/files/scene_file_light.hpp"
 #include "scene/files/scene_file_models.hpp"
 
 #include <algorithm>
@@ -10,12 +11,6 @@
 
 namespace nacre::scene {
 namespace {
-
-void checkDirection(const SceneFileObject& object, const char* key, const glm::vec3& direction) {
-    if (!(glm::length(direction) > 0)) {
-        object.refuse(key, "a direction other than (0, 0, 0)");
-    }
-}
 
 class SceneFileReader {
 public:
@@ -40,7 +35,7 @@ public:
         for (SceneFileObject& camera : root_.objects("cameras")) {
             cameras.push_back(readCamera(camera));
         }
-        if (!lights.empty()) {
+        if (root_.has("lights")) {
             scene_.lights = std::move(lights);
         } else {
             fitLights(scene_); // as where a model is loaded by itself
@@ -51,39 +46,15 @@ public:
         SceneFileObject environment = root_.object("environment");
         readEnvironment(environment);
         root_.finish();
+        const bool isDark = root_.has("lights") && scene_.lights.empty();
+        addMissingViewAndLights(scene_);
+        if (isDark) {
+            scene_.lights.clear();
+        }
         return std::move(scene_);
     }
 
 private:
-    static Light readLight(SceneFileObject& object) {
-        constexpr std::array kinds{"directional", "spot", "point"};
-        Light light;
-        light.name = object.text("name");
-        object.require("type");
-        light.kind = static_cast<LightKind>(object.choice("type", 0, kinds));
-        light.color = object.triple("color", light.color, nonNegative);
-        light.intensity = object.real("intensity", light.intensity, nonNegative);
-        light.position = object.triple("position", light.position);
-        if (light.kind != LightKind::Point) {
-            object.require("direction");
-        }
-        if (light.kind != LightKind::Directional) {
-            object.require("position");
-        }
-        light.direction = object.triple("direction", light.direction);
-        checkDirection(object, "direction", light.direction);
-        light.direction = glm::normalize(light.direction);
-        light.range = object.real("range", light.range, nonNegative);
-        light.outerConeAngle = object.real("outerConeAngle", 45, {0, 90, true}) * degree;
-        light.innerConeAngle = object.real("innerConeAngle", 0, {0, 90}) * degree;
-        if (light.innerConeAngle > light.outerConeAngle) {
-            object.refuse("innerConeAngle", "at most outerConeAngle");
-        }
-        light.castsShadow = object.boolean("castsShadow", light.castsShadow);
-        object.finish();
-        return light;
-    }
-
     static Camera readCamera(SceneFileObject& object) {
         constexpr std::array projections{"perspective", "orthographic"};
         Camera camera;
@@ -129,6 +100,7 @@ private:
         }
         const std::filesystem::path target = object.namedFile("image", image, "an existing .hdr or .exr file");
         scene_.inputs.push_back(target.string());
+        environment.file = target.string();
         environment.image = readRadiance(target);
         const auto isRadiance = [](float value) { return value >= 0 && std::isfinite(value); };
         if (!std::ranges::all_of(environment.image->values, isRadiance)) {

@@ -32,27 +32,40 @@ std::uint32_t addMaterial(const SceneFileObject& object, const char* key, const 
     return addMaterial(model, loadMaterial(target), where);
 }
 
-void assignByName(SceneFileObject& object, const nlohmann::json& byName, Scene& model) {
-    SceneFileObject entries(byName, object.file(), object.fieldOf("materials"));
-    std::multimap<std::string, std::size_t> surfaces;
-    for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
-        surfaces.emplace(model.surfaces[i].name, i);
+using Surfaces = std::vector<Surface*>;
+
+/// Calls `use` with every entry of the member `key`, and the surfaces that have its name.
+template <typename Use>
+void forEachName(const SceneFileObject& object, const char* key, const nlohmann::json& byName, Scene& model,
+                 const Use& use) {
+    const SceneFileObject entries(byName, object.file(), object.fieldOf(key));
+    std::map<std::string, Surfaces> surfaces;
+    for (Surface& surface : model.surfaces) {
+        surfaces[surface.name].push_back(&surface);
     }
     for (const auto& [name, value] : byName.items()) {
-        const std::uint32_t material = addMaterial(entries, name.c_str(), value, model);
-        const auto [first, last] = surfaces.equal_range(name);
-        if (first == last) {
+        const auto named = surfaces.find(name);
+        if (named == surfaces.end()) {
             throw SceneError(object.file() + ": " + entries.fieldOf(name) + ": the model has no such surface, only " +
                              listNames(model.surfaces));
         }
-        for (auto surface = first; surface != last; ++surface) {
-            setSurfaceMaterial(model, model.surfaces[surface->second], material);
-        }
+        use(entries, name, value, named->second);
     }
 }
 
-/// The baked thickness of all surfaces, which `thickness` is the white of.
-void readThicknessTexture(SceneFileObject& look, Scene& model) {
+void assignByName(const SceneFileObject& object, const nlohmann::json& byName, Scene& model) {
+    forEachName(object, "materials", byName, model,
+                [&](const SceneFileObject& entries, const std::string& name, const nlohmann::json& value,
+                    const Surfaces& surfaces) {
+                    const std::uint32_t material = addMaterial(entries, name.c_str(), value, model);
+                    for (Surface* surface : surfaces) {
+                        setSurfaceMaterial(model, *surface, material);
+                    }
+                });
+}
+
+/// The baked thickness of the surfaces, which `thickness` is the white of.
+void readThicknessTexture(SceneFileObject& look, Scene& model, const Surfaces& surfaces) {
     const std::string texture = look.text("thicknessTexture");
     if (!look.has("thicknessTexture")) {
         return;
@@ -60,31 +73,31 @@ void readThicknessTexture(SceneFileObject& look, Scene& model) {
     look.require("thickness");
     const std::filesystem::path target = look.namedFile("thicknessTexture", texture, "an existing picture of 8 bits");
     model.inputs.push_back(target.string());
-    for (Surface& surface : model.surfaces) {
-        surface.thicknessTexture = static_cast<std::uint32_t>(model.textures.size());
+    for (Surface* surface : surfaces) {
+        surface->thicknessTexture = static_cast<std::uint32_t>(model.textures.size());
     }
     model.textures.push_back(readTexture(target, false));
 }
 
-void readLook(SceneFileObject look, Scene& model) {
+void readLook(SceneFileObject look, Scene& model, const Surfaces& surfaces) {
     const bool colored = look.has("baseColor");
     const glm::vec3 baseColor = look.triple("baseColor", glm::vec3(1), unitInterval);
     for (const auto& [key, member] :
          {std::pair("metallic", &Surface::metallic), std::pair("roughness", &Surface::roughness),
           std::pair("specular", &Surface::specular)}) {
         const float value = look.real(key, 0, unitInterval);
-        for (Surface& surface : model.surfaces) {
-            surface.*member = look.has(key) ? value : surface.*member;
+        for (Surface* surface : surfaces) {
+            surface->*member = look.has(key) ? value : surface->*member;
         }
     }
     const float thickness = look.real("thickness", -1, {0, 1e6});
     const bool doubleSided = look.boolean("doubleSided", false);
-    for (Surface& surface : model.surfaces) {
-        surface.baseColor = colored ? glm::vec4(baseColor, surface.baseColor.w) : surface.baseColor;
-        surface.thickness = thickness >= 0 ? thickness : surface.thickness;
-        surface.doubleSided = look.has("doubleSided") ? doubleSided : surface.doubleSided;
+    for (Surface* surface : surfaces) {
+        surface->baseColor = colored ? glm::vec4(baseColor, surface->baseColor.w) : surface->baseColor;
+        surface->thickness = thickness >= 0 ? thickness : surface->thickness;
+        surface->doubleSided = look.has("doubleSided") ? doubleSided : surface->doubleSided;
     }
-    readThicknessTexture(look, model);
+    readThicknessTexture(look, model, surfaces);
     look.finish();
 }
 
@@ -100,7 +113,18 @@ void assignMaterials(SceneFileObject& object, Scene& model) {
     if (const nlohmann::json* byName = object.member("materials")) {
         assignByName(object, *byName, model);
     }
-    readLook(object.object("surface"), model);
+    Surfaces all;
+    for (Surface& surface : model.surfaces) {
+        all.push_back(&surface);
+    }
+    readLook(object.object("surface"), model, all);
+    if (const nlohmann::json* byName = object.member("surfaces")) {
+        forEachName(object, "surfaces", *byName, model,
+                    [&](const SceneFileObject& entries, const std::string& name, const nlohmann::json& value,
+                        const Surfaces& surfaces) {
+                        readLook(SceneFileObject(value, object.file(), entries.fieldOf(name)), model, surfaces);
+                    });
+    }
 }
 
 } // namespace nacre::scene

@@ -183,12 +183,12 @@ void SceneFileModels::add(std::vector<SceneFileObject>& models) {
             ++placements_[keyOf(model, model.text("model"))];
         }
     }
-    for (SceneFileObject& model : models) {
-        addModel(model);
+    for (std::size_t entry = 0; entry < models.size(); ++entry) {
+        addModel(models[entry], static_cast<std::uint32_t>(entry));
     }
 }
 
-void SceneFileModels::addModel(SceneFileObject& object) {
+void SceneFileModels::addModel(SceneFileObject& object, std::uint32_t entry) {
     const std::string source = object.text("model");
     if (const auto shared = placed_.find(looksOf(object)); shared != placed_.end()) {
         placeAgain(object, shared->second);
@@ -217,6 +217,9 @@ void SceneFileModels::addModel(SceneFileObject& object) {
     }
     placed_.emplace(looksOf(object), std::move(placed));
     charge(model, key);
+    for (Surface& surface : model.surfaces) {
+        surface.model = entry;
+    }
     append(std::move(model), transform, name);
 }
 
@@ -224,7 +227,7 @@ void SceneFileModels::addModel(SceneFileObject& object) {
 void SceneFileModels::placeAgain(SceneFileObject& object, const Placed& placed) {
     const glm::dmat4 transform = readTransform(object) * glm::scale(glm::dmat4(1), glm::dvec3(placed.unitScale));
     const std::string name = object.text("name");
-    for (const char* known : {"model", "units", "instances", "material", "materials", "surface"}) {
+    for (const char* known : {"model", "units", "instances", "material", "materials", "surface", "surfaces"}) {
         object.member(known);
     }
     object.finish();

@@ -28,7 +28,7 @@ private:
         glm::dvec3 origin{0}; ///< the model's Scene::origin
     };
 
-    void addModel(SceneFileObject& object);
+    void addModel(SceneFileObject& object, std::uint32_t entry);
     void placeAgain(SceneFileObject& object, const Placed& placed);
     void charge(const Scene& model, const std::string& key);
     Scene take(const SceneFileObject& object, const std::string& source, const std::string& key);

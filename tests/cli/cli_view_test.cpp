@@ -1,11 +1,15 @@
 // `nacre view`: frames without a window, turntables, and scripts that drive the window.
+#include "image/image_file.hpp"
 #include "running_nacre.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -53,11 +57,17 @@ protected:
 
     Outcome runScript(const Json& steps, const Environment& platform) const {
         writeText(folder() / "script.json", Json{{"size", {500, 300}}, {"samples", 2}, {"steps", steps}}.dump());
+        return run({"view", "cube.obj", "--material", "skin", "--script", "script.json", "--validation"},
+                   environmentOf(platform));
+    }
+
+    /// Settings and recovery files are in the test's folder.
+    Environment environmentOf(const Environment& platform) const {
         Environment environment = platform;
         for (const char* name : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_RUNTIME_DIR"}) {
             environment.emplace_back(name, folder().string());
         }
-        return run({"view", "cube.obj", "--material", "skin", "--script", "script.json", "--validation"}, environment);
+        return environment;
     }
 
     std::string bytes(const std::string& file) const { return readText(folder() / file); }
@@ -70,8 +80,9 @@ TEST_F(ViewTest, HeadlessSaysWhatFramesTakeWithLightsStillAndMoving) {
     const Outcome outcome =
         run({"view", "cube.obj", "--headless", "--frames", "3", "--size", "32x18", "--shadow-map-size", "64"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
-    for (const char* part : {"32x18, 3 frames", "lights still", "lights moving", "scatter and transmit, device",
-                             "frame, processor", "p99", "G-buffer"}) {
+    for (const char* part :
+         {"32x18, 3 frames", "lights still", "lights moving", "material changing", "growth of memory",
+          "scatter and transmit, device", "frame, processor", "p99", "G-buffer"}) {
         EXPECT_NE(outcome.output.find(part), std::string::npos) << part << "\n" << outcome.output;
     }
 }
@@ -117,6 +128,8 @@ TEST_F(ViewTest, AScriptEditsUndoesSavesAndLoads) {
                                        {{"choose", "compare.second"}, {"item", "Effect off"}},
                                        {{"choose", "compare.mode"}, {"item", "A and B, divided"}},
                                        {{"wait", true}},
+                                       {{"expect", "compare.error"}, {"text", "FLIP"}},
+                                       {{"expect", "compare.error"}, {"text", "Light, A over B: red"}},
                                        {{"screenshot", "window.png"}}},
                                       offscreen);
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
@@ -130,6 +143,89 @@ TEST_F(ViewTest, AScriptEditsUndoesSavesAndLoads) {
 TEST_F(ViewTest, AFullDiskIsASentence) {
     expectComplaint(runScript({{{"saveMaterial", "/dev/full"}}}, offscreen), 1,
                     {"script.json", "steps[0]", "/dev/full", "No space left"});
+    expectComplaint(runScript({{{"click", "light.remove"}}, {{"saveScene", "/dev/full"}}}, offscreen), 1,
+                    {"script.json", "steps[1]", "/dev/full"});
+}
+
+/// The largest difference of two pictures.
+float difference(const std::filesystem::path& one, const std::filesystem::path& other) {
+    const nacre::Image first = nacre::readImage(one);
+    const nacre::Image second = nacre::readImage(other);
+    EXPECT_EQ(first.values.size(), second.values.size());
+    float most = 0;
+    for (std::size_t i = 0; i < std::min(first.values.size(), second.values.size()); ++i) {
+        most = std::max(most, std::abs(first.values[i] - second.values[i]));
+    }
+    return most;
+}
+
+/// Angles are in degrees in a scene file, which may change their last bit.
+TEST_F(ViewTest, ASavedSceneIsThePictureAgain) {
+    const Outcome outcome = runScript({{{"set", "material.scale"}, {"value", 6}},
+                                       {{"set", "light.intensity"}, {"value", 9}},
+                                       {{"drag", {0.5, 0.6}}, {"to", {0.62, 0.5}}},
+                                       {{"saveMaterial", "structs.h"}},
+                                       {{"saveScene", "scene.json"}},
+                                       {{"wait", true}},
+                                       {{"picture", "saved.exr"}},
+                                       {{"open", "cube.obj"}},
+                                       {{"wait", true}},
+                                       {{"picture", "before.exr"}},
+                                       {{"open", "scene.json"}},
+                                       {{"wait", true}},
+                                       {{"picture", "opened.exr"}}},
+                                      offscreen);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    EXPECT_GT(difference(folder() / "saved.exr", folder() / "before.exr"), 0.1f);
+    EXPECT_LT(difference(folder() / "saved.exr", folder() / "opened.exr"), 0.02f);
+    EXPECT_NE(bytes("structs.h").find("static const NacreMaterial skin"), std::string::npos);
+}
+
+/// A program that is killed leaves what was edited to the next one.
+TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
+    const Json edits{{{"set", "material.scale"}, {"value", 6}},
+                     {{"click", "light.remove"}},
+                     {{"wait", true}},
+                     {{"picture", "edited.png"}},
+                     {{"pause", 60'000}}};
+    writeText(folder() / "killed.json", Json{{"size", {500, 300}}, {"samples", 2}, {"steps", edits}}.dump());
+    const nacre::test::RunningNacre running({"view", "cube.obj", "--material", "skin", "--script", "killed.json"},
+                                            folder(), environmentOf(offscreen));
+    const std::filesystem::path kept = folder() / "nacre/nacre";
+    const auto isThere = [&] {
+        return std::filesystem::exists(folder() / "edited.png") && std::filesystem::exists(kept) &&
+               !std::filesystem::is_empty(kept);
+    };
+    for (int tries = 0; tries < 600 && !isThere(); ++tries) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    ASSERT_TRUE(isThere());
+    running.send(SIGKILL);
+    EXPECT_EQ(running.wait().exitCode, 128 + SIGKILL);
+    const Outcome outcome =
+        runScript({{{"recover", true}}, {{"wait", true}}, {{"picture", "recovered.png"}}}, offscreen);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    EXPECT_EQ(bytes("recovered.png"), bytes("edited.png"));
+    EXPECT_TRUE(std::filesystem::is_empty(kept)) << "it would be offered once more";
+}
+
+/// A second on a machine that has nothing else to do; tests run beside each other.
+TEST_F(ViewTest, ClosingWhileAReferenceRunsIsSoonOver) {
+    const Json steps{{{"wait", true}},
+                     {{"choose", "compare.second"}, {"item", "Reference (surface integral)"}},
+                     {{"pause", 1500}},
+                     {{"expect", "compare.progress"}, {"text", "samples a pixel"}},
+                     {{"picture", "last.png"}}};
+    writeText(folder() / "closed.json", Json{{"size", {500, 300}}, {"samples", 1}, {"steps", steps}}.dump());
+    const nacre::test::RunningNacre running({"view", "cube.obj", "--material", "skin", "--script", "closed.json"},
+                                            folder(), environmentOf(offscreen));
+    while (!std::filesystem::exists(folder() / "last.png") && running.error().find("nacre: ") == std::string::npos) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = running.wait();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
 }
 
 TEST_F(ViewTest, AWrongStepIsNamed) {
@@ -149,9 +245,14 @@ TEST_F(ViewTest, AWindowIsResizedWithoutAComplaint) {
         state = state * 1664525u + 1013904223u;
         return low + (state >> 8) % (high - low);
     };
-    constexpr int sizes = 30;
+    constexpr int sizes = 200;
     for (int i = 0; i < sizes; ++i) {
-        steps.push_back({{"size", {random(540, 900), random(200, 700)}}});
+        steps.push_back({{"size", {random(540, 700), random(200, 400)}}});
+        if (i % 50 == 49) { // a minimised window is one that is not mapped
+            steps.push_back({{"hide", true}});
+            steps.push_back({{"pause", 20}});
+            steps.push_back({{"hide", false}});
+        }
     }
     steps.push_back({{"size", {560, 420}}});
     steps.push_back({{"drag", {0.3, 0.5}}, {"to", {0.6, 0.5}}});

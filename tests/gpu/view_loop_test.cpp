@@ -1,13 +1,20 @@
 // The viewer's loop without a window: it allocates nothing while something is dragged, and ends up where it was.
+#include "image/metrics.hpp"
 #include "nacre/presets.hpp"
 #include "tests/gpu/support/recording_calls.hpp"
 #include "tests/gpu/support/renderer_scenes.hpp"
 #include "view/loop/headless.hpp"
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
+#include "view/loop/side_error.hpp"
+#include "view/loop/swatch.hpp"
+#include "view/model/edited_file.hpp"
 #include "view/model/edited_scene.hpp"
 #include "view/model/inspection.hpp"
+#include "view/model/light_handles.hpp"
 #include "view/model/material_structs.hpp"
+#include "view/model/recipes.hpp"
+#include "view/model/window_colors.hpp"
 
 #include "trace/geometry.hpp"
 
@@ -84,7 +91,9 @@ TEST_F(ViewLoop, DraggingASliderAllocatesNothingAndWaitsForNothing) {
     callCounts() = {};
     forbiddenCalls().clear();
     constexpr int frames = 200;
+    std::int64_t memory = 0;
     for (int frame = 0; frame < frames; ++frame) {
+        memory = frame == frames / 2 ? view::heapBytes() : memory;
         materials[0].scale = 1 + 0.01 * frame;
         loop_->setMoving(true);
         loop_->setMaterials(materials);
@@ -96,6 +105,7 @@ TEST_F(ViewLoop, DraggingASliderAllocatesNothingAndWaitsForNothing) {
                   [](const std::string& name) { return name == "vkQueueSubmit2" || name == "vkGetQueryPoolResults"; });
     EXPECT_EQ(forbiddenCalls(), std::vector<std::string>{});
     EXPECT_EQ(callCounts().allocations, 0);
+    EXPECT_LT(view::heapBytes() - memory, 256 << 10); // of which the validation layer may keep something
     EXPECT_GE(loop_->framesFinished(), frames - 2u);
     loop_->setMoving(false);
     loop_->setMaterials(scene_->materials);
@@ -157,6 +167,247 @@ TEST_F(ViewLoop, APictureOfAnotherSizeAndBackIsTheSame) {
     EXPECT_EQ(other.height, 20u);
     loop_->resize(side, side);
     EXPECT_TRUE(stillPicture(*loop_) == before);
+}
+
+/// vkQueueSubmit2 of a device that is gone.
+VKAPI_ATTR VkResult VKAPI_CALL loseDevice(VkQueue, std::uint32_t, const VkSubmitInfo2*, VkFence) {
+    return VK_ERROR_DEVICE_LOST;
+}
+
+TEST_F(ViewLoop, ALostDeviceIsASentence) {
+    const Image before = stillPicture(*loop_);
+    auto& dispatcher = const_cast<vk::raii::DeviceDispatcher&>(*device().implementation().device.getDispatcher());
+    const PFN_vkQueueSubmit2 submit = std::exchange(dispatcher.vkQueueSubmit2, &loseDevice);
+    loop_->setCamera(scene_->cameras[0]);
+    try {
+        loop_->step();
+        FAIL() << "the frame was submitted";
+    } catch (const renderer::DeviceLost& error) {
+        EXPECT_STREQ(error.what(), "the graphics device has stopped working and has to be opened again");
+    }
+    dispatcher.vkQueueSubmit2 = submit;
+    EXPECT_TRUE(stillPicture(*loop_) == before); // what was recorded and not drawn counts for nothing
+}
+
+/// A surface that takes pictures, and a swapchain that cannot be had for it.
+VKAPI_ATTR VkResult VKAPI_CALL supportSurface(VkPhysicalDevice, std::uint32_t, VkSurfaceKHR, VkBool32* supported) {
+    *supported = VK_TRUE;
+    return VK_SUCCESS;
+}
+VKAPI_ATTR VkResult VKAPI_CALL surfaceFormats(VkPhysicalDevice, VkSurfaceKHR, std::uint32_t* count,
+                                              VkSurfaceFormatKHR* formats) {
+    *count = 1;
+    if (formats != nullptr) {
+        *formats = {VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR};
+    }
+    return VK_SUCCESS;
+}
+VKAPI_ATTR VkResult VKAPI_CALL surfaceCapabilities(VkPhysicalDevice, VkSurfaceKHR, VkSurfaceCapabilitiesKHR* result) {
+    *result = {.minImageCount = 2,
+               .currentExtent = {64, 64},
+               .minImageExtent = {64, 64},
+               .maxImageExtent = {64, 64},
+               .supportedUsageFlags = VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+    return VK_SUCCESS;
+}
+VKAPI_ATTR VkResult VKAPI_CALL failSwapchain(VkDevice, const VkSwapchainCreateInfoKHR*, const VkAllocationCallbacks*,
+                                             VkSwapchainKHR*) {
+    return VK_ERROR_INITIALIZATION_FAILED;
+}
+
+TEST_F(ViewLoop, AFailedSwapchainIsASentence) {
+    const Image before = stillPicture(*loop_);
+    const renderer::Gpu& gpu = device().implementation();
+    auto& instance = const_cast<vk::raii::InstanceDispatcher&>(*gpu.physicalDevice.getDispatcher());
+    auto& dispatcher = const_cast<vk::raii::DeviceDispatcher&>(*gpu.device.getDispatcher());
+    instance.vkGetPhysicalDeviceSurfaceSupportKHR = &supportSurface;
+    instance.vkGetPhysicalDeviceSurfaceFormatsKHR = &surfaceFormats;
+    instance.vkGetPhysicalDeviceSurfaceCapabilitiesKHR = &surfaceCapabilities;
+    dispatcher.vkCreateSwapchainKHR = &failSwapchain;
+    const vk::SurfaceKHR surface(reinterpret_cast<VkSurfaceKHR>(std::uintptr_t{1}));
+    for (int tries = 0; tries < 2; ++tries) {
+        try {
+            loop_->setSurface(surface, [] { return vk::Extent2D{64, 64}; });
+            FAIL() << "there is a swapchain";
+        } catch (const renderer::RendererError& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with("the window cannot show pictures: ")) << error.what();
+        }
+    }
+    loop_->setSurface(nullptr, nullptr);
+    EXPECT_TRUE(stillPicture(*loop_) == before);
+}
+
+TEST_F(ViewLoop, AFootprintIsWhatLightTravelsInPixels) {
+    view::SideSettings look;
+    look.look.image = renderer::ShownImage::Footprint;
+    loop_->setSide(0, look);
+    stillPicture(*loop_);
+    const Image footprint = loop_->read(0).light;
+    const trace::Geometry geometry(*scene_);
+    scene::Scene copy = *scene_;
+    const auto found = view::inspect(geometry, view::editedOf(copy), scene_->cameras[0], {}, {0.5, 0.5}, side, side);
+    const double radius = makeProfile(presets().front())->rmsRadius(0); // skin's red goes farthest
+    EXPECT_NEAR(footprint.at(side / 2, side / 2)[0], radius * found->pixelsPerMillimeter, 0.02 * radius);
+    EXPECT_EQ(footprint.at(1, 1)[0], 0);
+    view::SideSettings picture;
+    picture.look.exposure = scene_->exposure;
+    loop_->setSide(0, picture);
+}
+
+TEST_F(ViewLoop, ABackdropIsSeenWhereThereIsNothing) {
+    scene::Camera camera = scene_->cameras[0];
+    camera.position += glm::vec3(0, 100, 0); // beside everything
+    camera.target += glm::vec3(0, 100, 0);
+    loop_->setCamera(camera);
+    view::SideSettings white;
+    white.look.backdrop = renderer::Backdrop::White;
+    loop_->setSide(0, white);
+    stillPicture(*loop_);
+    EXPECT_EQ(loop_->read(0).shown.at(3, 3)[1], 1);
+    EXPECT_LT(loop_->read(0).light.at(3, 3)[1], 0.5f); // it is no light
+    view::SideSettings picture;
+    picture.look.exposure = scene_->exposure;
+    loop_->setSide(0, picture);
+    loop_->setCamera(scene_->cameras[0]);
+}
+
+TEST_F(ViewLoop, AWindowHasTheMarksOfLights) {
+    stillPicture(*loop_);
+    loop_->setShown({.marks = {{.place = {0.25f, 0.5f}, .end = {0.25f, 0.5f}, .color = {1, 0, 0.5f}, .radius = 8}}});
+    const Image window = loop_->readWindow(2 * side + 40, 2 * side); // bars beside the picture
+    EXPECT_EQ(window.at(20 + side / 2, side)[0], 1);
+    EXPECT_EQ(window.at(20 + side / 2, side)[1], 0);
+    EXPECT_GT(window.at(20 + side, side)[1], 0);
+    loop_->setShown({});
+}
+
+TEST(ViewHandles, FollowTheMouse) {
+    scene::Camera camera;
+    camera.position = {1, 2, 5};
+    camera.target = {0.5f, 0, 0};
+    constexpr float aspect = 1.5f;
+    for (const scene::LightKind kind :
+         {scene::LightKind::Directional, scene::LightKind::Spot, scene::LightKind::Point}) {
+        const scene::Light light = view::newLight(kind, camera, 1);
+        const std::vector<scene::Light> one{light};
+        ASSERT_EQ(view::lightHandles(one, camera, aspect).size(), 1u);
+        for (const bool behind : {false, true}) {
+            const glm::vec2 place(0.45f, 0.6f);
+            const auto dragged = view::draggedLight(light, camera, aspect, place, view::LightDrag::Move, behind);
+            ASSERT_TRUE(dragged);
+            const view::LightHandle handle = view::lightHandles(std::vector{*dragged}, camera, aspect).at(0);
+            EXPECT_NEAR(glm::distance(handle.place, place), 0, 1e-4f);
+            EXPECT_TRUE(kind != scene::LightKind::Directional || handle.behind == behind);
+        }
+    }
+    const scene::Light sun = view::newLight(scene::LightKind::Directional, camera, 1);
+    EXPECT_FALSE(view::draggedLight(sun, camera, aspect, {0.99f, 0.5f}, view::LightDrag::Move, false));
+    const scene::Light spot = view::newLight(scene::LightKind::Spot, camera, 1);
+    const auto aimed = view::draggedLight(spot, camera, aspect, {0.5f, 0.5f}, view::LightDrag::Aim, false);
+    EXPECT_NEAR(glm::distance(aimed->direction, glm::normalize(camera.target - spot.position)), 0, 1e-5f);
+}
+
+TEST(ViewEdits, AreKeptWhole) {
+    scene::Scene scene = ballScene();
+    const view::EditedScene base = view::editedOf(scene);
+    view::EditedScene edited = base;
+    edited.materials[0].hidden = {2};
+    edited.materials[0].material.layers[1].variance = 0.1234;
+    edited.surfaces[1].roughness = 0.3f;
+    edited.surfaces[1].material = scene::none;
+    edited.lights.pop_back();
+    edited.lights[0].intensity = 0.7f;
+    edited.exposureStops = 1.5f;
+    edited.environmentRotation = 0.25f;
+    const std::string text = view::formatEdited(edited);
+    EXPECT_NE(text, view::formatEdited(base));
+    const view::EditedScene read = view::parseEdited(text, "kept", base);
+    EXPECT_EQ(read.materials, edited.materials);
+    EXPECT_EQ(read.surfaces[1].material, scene::none);
+    EXPECT_EQ(read.lights.size(), 1u);
+    EXPECT_EQ(read.lights[0].intensity, 0.7f);
+    EXPECT_EQ(read.environmentRotation, 0.25f);
+    view::EditedScene other = base;
+    other.materials.clear();
+    EXPECT_THROW(static_cast<void>(view::parseEdited(text, "kept", other)), FileError);
+    EXPECT_THROW(static_cast<void>(view::parseEdited("{}", "kept", base)), FileError);
+}
+
+TEST_F(ViewLoop, ASwatchHasAShadowsEdgeAndAWedge) {
+    view::Swatch swatch(device(), 1.28); // px per mm: 32 px a body
+    const auto drawn = [&](const Material& material) {
+        swatch.setMaterial(material);
+        while (!swatch.step()) {
+            std::this_thread::yield();
+        }
+        return swatch.picture();
+    };
+    Material still = presets().front();
+    still.strength = still.translucency = 0;
+    const Image without = drawn(still);
+    const Image with = drawn(presets().front());
+    ASSERT_EQ(with.width, 96u);
+    ASSERT_EQ(with.height, 32u);
+    const auto red = [](const Image& image, std::uint32_t x) { return image.at(x, 16)[0]; };
+    EXPECT_GT(red(without, 28), red(without, 4) + 0.3f); // lit on the right
+    EXPECT_GT(red(with, 14), red(without, 14) + 0.1f);   // red goes into the shadow
+    EXPECT_GT(red(with, 34), red(without, 34) + 0.1f);   // and through where the wedge is thin
+    EXPECT_LT(red(with, 62), red(with, 34) - 0.1f);
+    EXPECT_GT(red(with, 80), 0.2f); // the ball
+}
+
+TEST(ViewColors, AreToldApart) {
+    for (const view::WindowColors& colors : {view::darkColors, view::lightColors}) {
+        for (const view::ShownColor& ground :
+             {colors.window, colors.base, colors.alternateBase, colors.button, colors.toolTip}) {
+            EXPECT_GE(view::contrast(colors.text, ground), 4.5);
+            EXPECT_GE(view::contrast(colors.faint, ground), 3);
+        }
+        EXPECT_GE(view::contrast(colors.highlightedText, colors.highlight), 4.5);
+        EXPECT_GE(view::contrast(colors.link, colors.window), 4.5);
+    }
+    EXPECT_NEAR(view::contrast({0, 0, 0}, {255, 255, 255}), 21, 1e-9);
+}
+
+TEST(ViewSideError, IsThatOfTheMetrics) {
+    Image grey = makeImage(40, 30, {"R", "G", "B"});
+    std::ranges::fill(grey.values, 0.25f);
+    Image half = grey;
+    for (std::size_t i = 0; i < half.values.size() / 2; ++i) {
+        half.values[i] = 0.5f;
+    }
+    view::SideErrorTask task;
+    task.begin({half, grey, half, grey});
+    task.begin({grey, grey, {}, {}}); // the last of those that wait
+    std::vector<view::SideError> measured;
+    while (task.isBusy()) {
+        if (std::optional<view::SideError> error = task.take()) {
+            measured.push_back(std::move(*error));
+        }
+        std::this_thread::yield();
+    }
+    ASSERT_EQ(measured.size(), 2u);
+    EXPECT_NEAR(measured[0].energyRatio->at(1), 1.5, 1e-6);
+    EXPECT_GT(measured[0].flip, 0.1);
+    EXPECT_NEAR(measured[0].psnr, errors(toEncoding(half, Encoding::Srgb), toEncoding(grey, Encoding::Srgb)).psnr(1),
+                1e-9);
+    EXPECT_EQ(measured[0].map.width, 40u);
+    EXPECT_TRUE(std::isinf(measured[1].psnr));
+    EXPECT_FALSE(measured[1].energyRatio);
+}
+
+TEST(ViewRecipes, ASlabsMelaninMakesItSkin) {
+    std::vector<Slab> slabs = view::skinSlabs({});
+    const Material before = view::mixSlabs(presets().front(), slabs);
+    for (const view::Parameter<Slab>& parameter : view::slabParameters()) {
+        if (parameter.name == std::string("slab.melanin")) {
+            parameter.set(slabs[0], 0.4);
+        }
+    }
+    const Material dark = view::mixSlabs(presets().front(), slabs);
+    EXPECT_EQ(findFault(dark), "");
+    EXPECT_EQ(dark.slabs, slabs);
+    EXPECT_LT(dark.albedo[0], 0.7 * before.albedo[0]);
 }
 
 TEST(ViewReference, ClosingWhileItRunsTakesLessThanASecond) {

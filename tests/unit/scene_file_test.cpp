@@ -2,7 +2,10 @@
 #include "scene/files/scene_file.hpp"
 
 #include "image/image_file.hpp"
+#include "nacre/presets.hpp"
+#include "scene/files/save_scene_file.hpp"
 #include "scene/import.hpp"
+#include "scene/surface_material.hpp"
 #include "tests/support/gltf_builder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -68,8 +71,9 @@ Json everything() {
         "models": [{"model": "triangle.obj", "name": "a", "instances": ["triangle"], "units": "mm",
                     "translate": [1, 2, 3], "rotate": [0, 0, 90], "scale": 2, "material": "skin",
                     "materials": {"red": "soap.json"},
-                    "surface": {"baseColor": [0.1, 0.2, 0.3], "metallic": 0.4, "roughness": 0.6, "specular": 0.7,
-                                "thickness": 5, "thicknessTexture": "thick.png", "doubleSided": true}}],
+                    "surface": {"baseColor": [0.1, 0.2, 0.3], "metallic": 0.4, "roughness": 0.5, "specular": 0.7,
+                                "thickness": 5, "thicknessTexture": "thick.png", "doubleSided": true},
+                    "surfaces": {"red": {"roughness": 0.6}}}],
         "lights": [{"name": "l", "type": "spot", "color": [1, 2, 3], "intensity": 4, "position": [1, 2, 3],
                     "direction": [0, 0, -2], "range": 5, "innerConeAngle": 10, "outerConeAngle": 60,
                     "castsShadow": false}],
@@ -376,6 +380,84 @@ TEST_F(SceneSchema, HasTheKeysAndRangesOfTheReader) {
     const Json schema = Json::parse(std::ifstream(NACRE_SOURCE_DIR "/docs/schemas/scene.schema.json"));
     EXPECT_EQ(error(everything()), "");
     compareObject(schema, schema, Json::json_pointer(""));
+}
+
+/// Equal but for the last bits of what was turned into degrees or made a unit vector.
+void expectAlike(const Scene& scene, const Scene& other) {
+    ASSERT_EQ(scene.surfaces.size(), other.surfaces.size());
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        const Surface& one = scene.surfaces[i];
+        const Surface& two = other.surfaces[i];
+        EXPECT_EQ(one.baseColor, two.baseColor) << one.name;
+        EXPECT_EQ(one.metallic, two.metallic);
+        EXPECT_EQ(one.roughness, two.roughness);
+        EXPECT_EQ(one.specular, two.specular);
+        EXPECT_EQ(one.thickness, two.thickness);
+        ASSERT_EQ(one.material == none, two.material == none);
+        EXPECT_TRUE(one.material == none || scene.materials[one.material] == other.materials[two.material]);
+    }
+    ASSERT_EQ(scene.lights.size(), other.lights.size());
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        EXPECT_EQ(scene.lights[i].kind, other.lights[i].kind);
+        EXPECT_EQ(scene.lights[i].intensity, other.lights[i].intensity);
+        EXPECT_EQ(scene.lights[i].castsShadow, other.lights[i].castsShadow);
+        EXPECT_NEAR(glm::distance(scene.lights[i].direction, other.lights[i].direction), 0, 1e-6f);
+        EXPECT_FLOAT_EQ(scene.lights[i].outerConeAngle, other.lights[i].outerConeAngle);
+    }
+    ASSERT_EQ(scene.cameras.size(), other.cameras.size());
+    EXPECT_EQ(scene.cameras[0].position, other.cameras[0].position);
+    EXPECT_EQ(scene.cameras[0].orthographicHeight, other.cameras[0].orthographicHeight);
+    EXPECT_FLOAT_EQ(scene.cameras[0].verticalFieldOfView, other.cameras[0].verticalFieldOfView);
+    EXPECT_EQ(scene.instances.at(0).transform, other.instances.at(0).transform);
+    EXPECT_EQ(scene.exposure, other.exposure);
+    EXPECT_EQ(scene.environment.image.has_value(), other.environment.image.has_value());
+    EXPECT_FLOAT_EQ(scene.environment.rotation, other.environment.rotation);
+}
+
+TEST_F(SceneFile, AModelIsSavedWithWhatWasEdited) {
+    const fs::path source = folder / "triangle.obj";
+    const fs::path target = folder / "saved.json";
+    const std::vector<Surface> read = load(source).surfaces;
+    Scene scene = load(source);
+    scene.lights = {{.name = "lamp", .kind = LightKind::Spot, .intensity = 0.1f, .outerConeAngle = 0.3f}};
+    scene.exposure = 0.3f;
+    scene.materials = {*findPreset("wax")};
+    scene.surfaces[0].material = 0;
+    saveSceneFile(scene, read, source, target); // the surface is not as its material says
+    expectAlike(load(target), scene);
+    setSurfaceMaterial(scene, scene.surfaces[0], 0);
+    scene.lights.clear();
+    saveSceneFile(scene, load(target).surfaces, target, target);
+    expectAlike(load(target), scene);
+    EXPECT_EQ(Json::parse(std::ifstream(target))["models"][0].count("surfaces"), 0u);
+}
+
+TEST_F(SceneFile, IsSavedOverItselfAndElsewhere) {
+    const Scene scene = read(everything());
+    const fs::path above = folder / "above.json";
+    saveSceneFile(scene, scene.surfaces, folder / "scene.json", above);
+    expectAlike(load(above), scene);
+    Scene without = scene;
+    without.surfaces[0].material = none;
+    saveSceneFile(without, scene.surfaces, above, above);
+    expectAlike(load(above), without);
+}
+
+TEST_F(SceneFile, IsNotSavedWhereItCouldNotBeRead) {
+    const Scene scene = read(minimal());
+    fs::create_directory(folder / "below");
+    const auto sentence = [&](const fs::path& target) {
+        try {
+            saveSceneFile(scene, scene.surfaces, folder / "scene.json", target);
+        } catch (const FileError& failure) {
+            return std::string(failure.what());
+        }
+        return std::string();
+    };
+    EXPECT_NE(sentence(folder / "below/scene.json").find("has to be in the folder of"), std::string::npos);
+    EXPECT_NE(sentence(folder / "triangle.obj").find("is made of this file"), std::string::npos);
+    EXPECT_NE(sentence("/dev/full").find("cannot be written"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "below/scene.json"));
 }
 
 TEST(Scenes, ExamplesLoad) {

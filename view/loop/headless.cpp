@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <malloc.h>
 #include <numbers>
 #include <thread>
 
@@ -96,21 +97,33 @@ Distribution distributionOf(std::vector<double> values) {
     return {at(0.5), at(0.99)};
 }
 
+std::int64_t heapBytes() {
+    const auto counts = mallinfo2();
+    return static_cast<std::int64_t>(counts.uordblks + counts.hblkhd);
+}
+
 HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, const HeadlessSettings& settings,
-                        bool lightsMove) {
+                        Moving moving) {
     LoopSettings forLoop = loopSettings(settings.width, settings.height, settings.shadowMapSize);
     forLoop.restartEveryFrame = true;
     PictureLoop loop(device, scene, forLoop);
     Times times;
     scene::Camera camera = scene.cameras.at(0);
+    std::vector<Material> materials = scene.materials;
     const auto draw = [&](std::uint32_t frame) {
         orbit(camera, {wholeTurn / static_cast<float>(settings.frames), 0});
         loop.setCamera(camera);
-        if (lightsMove) {
-            loop.setLights(turnedLights(scene.lights,
-                                        wholeTurn * static_cast<float>(frame) / static_cast<float>(settings.frames)));
+        const auto begin = std::chrono::steady_clock::now();
+        const float angle = wholeTurn * static_cast<float>(frame) / static_cast<float>(settings.frames);
+        if (moving == Moving::Lights) {
+            loop.setLights(turnedLights(scene.lights, angle));
+        } else if (moving == Moving::Material && !materials.empty()) {
+            materials[0].scale = scene.materials[0].scale * (1.5 + 0.5 * std::sin(angle));
+            loop.setMaterials(materials);
         }
+        const std::chrono::duration<double, std::milli> changing = std::chrono::steady_clock::now() - begin;
         drawOne(loop);
+        return changing.count();
     };
     for (std::uint32_t frame = 0; frame < warmUpFrames; ++frame) {
         draw(frame);
@@ -118,19 +131,22 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
     loop.wait();
     loop.onFinished = [&](const renderer::FrameReport& report) { times.add(report); };
     auto last = std::chrono::steady_clock::now();
+    std::int64_t memory = 0;
     for (std::uint32_t frame = 0; frame < settings.frames; ++frame) {
-        draw(frame + warmUpFrames);
-        times.processor.push_back(loop.stepMilliseconds());
+        const double changing = draw(frame + warmUpFrames);
+        times.processor.push_back(changing + loop.stepMilliseconds());
         const auto now = std::chrono::steady_clock::now();
         times.interval.push_back(std::chrono::duration<double, std::milli>(now - last).count());
         last = now;
+        memory = frame == settings.frames / 2 ? heapBytes() : memory;
     }
     loop.wait();
     HeadlessRun run{distributionOf(times.frame),
                     distributionOf(times.effect),
                     distributionOf(times.processor),
                     distributionOf(times.interval),
-                    {}};
+                    {},
+                    heapBytes() - memory};
     for (const auto& [name, values] : times.passes) {
         run.passes.emplace_back(name, distributionOf(values).median);
     }
@@ -147,13 +163,16 @@ void printHeadless(std::ostream& out, renderer::Device& device, const scene::Sce
                       times.p99);
         out << text.data();
     };
-    for (const bool lightsMove : {false, true}) {
-        const HeadlessRun run = runHeadless(device, scene, settings, lightsMove);
-        out << (lightsMove ? "lights moving\n" : "lights still\n");
+    for (const auto& [moving, title] :
+         {std::pair(Moving::Nothing, "lights still"), std::pair(Moving::Lights, "lights moving"),
+          std::pair(Moving::Material, "material changing")}) {
+        const HeadlessRun run = runHeadless(device, scene, settings, moving);
+        out << title << '\n';
         row("frame, device", run.frame);
         row("scatter and transmit, device", run.effect);
         row("frame, processor", run.processor);
         row("frame to frame", run.interval);
+        out << "  growth of memory             " << run.memoryGrowth / 1024 << " KiB\n";
         for (const auto& [name, median] : run.passes) {
             std::array<char, 128> text{};
             std::snprintf(text.data(), text.size(), "    %-36s %9.3f\n", name.c_str(), median);

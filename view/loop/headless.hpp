@@ -27,20 +27,28 @@ struct Distribution {
 };
 Distribution distributionOf(std::vector<double> values);
 
+/// What this program has allocated and not freed, bytes.
+std::int64_t heapBytes();
+
+/// What changes from frame to frame beside the camera.
+enum class Moving { Nothing, Lights, Material };
+
 /// What the frames of one run took, ms.
 struct HeadlessRun {
     Distribution frame;                                 ///< on the device
     Distribution effect;                                ///< scatter and transmit, on the device
-    Distribution processor;                             ///< from the start of recording to the submission
+    Distribution processor;                             ///< from the first change to the submission, without waits
     Distribution interval;                              ///< from one frame to the next
     std::vector<std::pair<std::string, double>> passes; ///< medians, in order
+    std::int64_t memoryGrowth = 0; ///< bytes that the program grew by, over the second half of the frames
 };
 
-/// Draws `frames` frames while the camera goes around the scene, with the lights still or moving.
+/// Draws `frames` frames while the camera goes around the scene, and the lights with it or the first material's scale
+/// up and down.
 HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, const HeadlessSettings& settings,
-                        bool lightsMove);
+                        Moving moving);
 
-/// Both runs, as a table for a terminal.
+/// All three runs, as a table for a terminal.
 void printHeadless(std::ostream& out, renderer::Device& device, const scene::Scene& scene,
                    const HeadlessSettings& settings);
 

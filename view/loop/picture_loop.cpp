@@ -29,26 +29,24 @@ float halton(std::uint32_t index, std::uint32_t base) {
     return result;
 }
 
+/// SampleLook::pixelScale.
+float pixelsPerMillimeter(const scene::Camera& camera, std::uint32_t height, float metersPerUnit) {
+    const float millimeters = 1000 * metersPerUnit;
+    return camera.projection == scene::ProjectionKind::Orthographic
+               ? -static_cast<float>(height) / (camera.orthographicHeight * millimeters)
+               : static_cast<float>(height) / (2 * std::tan(camera.verticalFieldOfView / 2) * millimeters);
+}
+
 /// Where in its pixel sample `index` of a picture lies: the first in the middle, the others spread evenly.
 glm::vec2 jitterOf(std::uint32_t index) {
     return index == 0 ? glm::vec2(0) : glm::vec2(halton(index, 2) - 0.5f, halton(index, 3) - 0.5f);
 }
 
-vk::ImageMemoryBarrier2 barrier(vk::Image image, const renderer::Usage& from, const renderer::Usage& to) {
-    return {.srcStageMask = from.stages,
-            .srcAccessMask = from.access,
-            .dstStageMask = to.stages,
-            .dstAccessMask = to.access,
-            .oldLayout = from.layout,
-            .newLayout = to.layout,
-            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .image = image,
-            .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}};
-}
-
-void record(const vk::raii::CommandBuffer& commands, const vk::ImageMemoryBarrier2& image) {
-    commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &image});
+/// A barrier of an image of the window.
+void recordBarrier(const vk::raii::CommandBuffer& commands, vk::Image image, const renderer::Usage& from,
+                   const renderer::Usage& to) {
+    const auto barrier = renderer::barrierBetween(image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}, from, to);
+    commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
 }
 
 } // namespace
@@ -96,17 +94,12 @@ renderer::RenderSettings PictureLoop::renderSettings(vk::Extent2D extent) const 
 }
 
 std::unique_ptr<PictureLoop::Sized> PictureLoop::makeFrame(vk::Extent2D extent) {
-    const renderer::FrameLimits limits{
-        .framesInFlight = settings_.framesInFlight, .lights = settings_.lights, .shadowLayers = settings_.shadowLayers};
-    auto sized =
-        std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
     // A slider can make a material ask for second surfaces. No frame is to wait for their passes then.
-    if (!materials_.empty()) {
-        renderer::EffectSettings effect = sides_[0].effect;
-        effect.technique = NACRE_TECHNIQUE_BANK_SURFACES;
-        sized->frame.prepare(effect);
-    }
-    return sized;
+    const renderer::FrameLimits limits{.framesInFlight = settings_.framesInFlight,
+                                       .lights = settings_.lights,
+                                       .shadowLayers = settings_.shadowLayers,
+                                       .secondSurfaces = !materials_.empty()};
+    return std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
 }
 
 void PictureLoop::makeSlots() {
@@ -120,7 +113,7 @@ void PictureLoop::makeSlots() {
 }
 
 void PictureLoop::attachAll() {
-    accumulation_ = std::make_unique<Accumulation>(gpu_, full_->extent);
+    accumulation_ = std::make_unique<Accumulation>(gpu_, full_->extent, materials_.size(), settings_.framesInFlight);
     full_->pass = accumulation_->attach(full_->frame.images());
     if (coarse_) {
         coarse_->pass = accumulation_->attach(coarse_->frame.images());
@@ -222,6 +215,7 @@ void PictureLoop::setCamera(const scene::Camera& camera) {
 void PictureLoop::setMaterials(const std::vector<Material>& materials) {
     forEachFrame([&](renderer::Frame& frame) { frame.setMaterials(materials); });
     materials_ = materials;
+    radii_.clear();
 }
 
 void PictureLoop::setSurfaces(std::span<const scene::Surface> surfaces) {
@@ -374,11 +368,16 @@ Step PictureLoop::step() {
                 recordFrame(slot, next_, *side);
             }
             if (image) {
-                recordWindow(slot.commands, *image);
+                recordWindow(slot.commands, next_, *image);
             }
             slot.commands.end();
             submit(slot, image);
         } catch (...) {
+            if (slot.drawn != nullptr) {
+                slot.drawn->frame.discard();
+                slot.drawn = nullptr;
+            }
+            restart();
             // The semaphore of an image that is not drawn stays signalled.
             slot.imageFree = vk::raii::Semaphore(gpu_.device, vk::SemaphoreCreateInfo{});
             throw;
@@ -411,32 +410,51 @@ void PictureLoop::prepareEffect(Sized& sized, const renderer::EffectSettings& ef
     sized.frame.setEffect(effect);
 }
 
+/// What ShownImage::Footprint needs.
+renderer::SampleLook PictureLoop::prepareLook(const renderer::SampleLook& look, std::uint32_t index) {
+    renderer::SampleLook result = look;
+    if (look.image != ShownImage::Footprint) {
+        return result;
+    }
+    if (radii_.empty()) {
+        for (const Material& material : materials_) {
+            const std::unique_ptr<Profile> profile = makeProfile(material);
+            radii_.push_back(
+                static_cast<float>(std::max({profile->rmsRadius(0), profile->rmsRadius(1), profile->rmsRadius(2)})));
+        }
+    }
+    accumulation_->setRadii(index, radii_);
+    result.pixelScale = pixelsPerMillimeter(camera_, settings_.height, static_cast<float>(scene_.metersPerUnit));
+    return result;
+}
+
 void PictureLoop::recordFrame(Slot& slot, std::uint32_t index, std::uint32_t side) {
     const SideSettings& settings = sides_[side];
     if (settings.look.image == ShownImage::Given) {
-        accumulation_->recordSample(slot.commands, full_->pass, side, full_->extent, settings.look, {});
+        accumulation_->recordSample(slot.commands, index, full_->pass, side, full_->extent, settings.look, {});
         return;
     }
     Sized& sized = current();
     prepareEffect(sized, settings.effect);
     const std::uint32_t sample = moving_ ? 0 : accumulation_->samples(side);
-    sized.frame.record(slot.commands, index, {camera_, jitterOf(sample)});
-    accumulation_->recordSample(slot.commands, sized.pass, side, sized.extent, settings.look,
-                                sized.frame.effectUse(index));
     slot.drawn = &sized;
+    sized.frame.record(slot.commands, index, {camera_, jitterOf(sample)});
+    accumulation_->recordSample(slot.commands, index, sized.pass, side, sized.extent, prepareLook(settings.look, index),
+                                sized.frame.effectUse(index));
 }
 
-void PictureLoop::recordWindow(const vk::raii::CommandBuffer& commands, const renderer::Swapchain::Acquired& image) {
+void PictureLoop::recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,
+                               const renderer::Swapchain::Acquired& image) {
     const vk::Extent2D window = swapchain_->extent();
-    accumulation_->recordShow(commands, window, shown_, swapchain_->isSwapped());
+    accumulation_->recordShow(commands, index, window, shown_, swapchain_->isSwapped());
     // The semaphore is waited for by transfers, so that this barrier follows it.
     const renderer::Usage before{vk::PipelineStageFlagBits2::eTransfer, {}, vk::ImageLayout::eUndefined};
     const renderer::Usage after{vk::PipelineStageFlagBits2::eTransfer, {}, vk::ImageLayout::ePresentSrcKHR};
-    record(commands, barrier(image.image, before, renderer::usage::transferWrite));
+    recordBarrier(commands, image.image, before, renderer::usage::transferWrite);
     commands.copyBufferToImage(accumulation_->pixels(), image.image, vk::ImageLayout::eTransferDstOptimal,
                                vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                                    .imageExtent = {window.width, window.height, 1}});
-    record(commands, barrier(image.image, renderer::usage::transferWrite, after));
+    recordBarrier(commands, image.image, renderer::usage::transferWrite, after);
     showAgain_ = false;
 }
 
@@ -469,6 +487,11 @@ void PictureLoop::reloadShaders() {
 renderer::SidePicture PictureLoop::read(std::uint32_t side) {
     wait();
     return translateErrors([&] { return accumulation_->read(side); });
+}
+
+Image PictureLoop::readWindow(std::uint32_t width, std::uint32_t height) {
+    wait();
+    return translateErrors([&] { return accumulation_->readWindow({width, height}, shown_); });
 }
 
 Image PictureLoop::readImage(renderer::Output output) {

@@ -84,6 +84,8 @@ public:
     vk::Extent2D coarseExtent() const;
     const LoopSettings& settings() const { return settings_; }
     renderer::SidePicture read(std::uint32_t side);
+    /// What a window of this size shows: R G B, sRGB encoded. Waits for the device.
+    Image readWindow(std::uint32_t width, std::uint32_t height);
     /// The images of the last frame at full size that was drawn for a side, read back. Waits for the device.
     Image readImage(renderer::Output output);
 
@@ -124,8 +126,10 @@ private:
     bool prepareWindow();
     std::optional<renderer::Swapchain::Acquired> acquire(Slot& slot);
     void prepareEffect(Sized& sized, const renderer::EffectSettings& effect);
+    renderer::SampleLook prepareLook(const renderer::SampleLook& look, std::uint32_t index);
     void recordFrame(Slot& slot, std::uint32_t index, std::uint32_t side);
-    void recordWindow(const vk::raii::CommandBuffer& commands, const renderer::Swapchain::Acquired& image);
+    void recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,
+                      const renderer::Swapchain::Acquired& image);
     void submit(Slot& slot, const std::optional<renderer::Swapchain::Acquired>& image);
 
     renderer::Gpu& gpu_;
@@ -143,6 +147,7 @@ private:
     std::uint64_t rebuilds_ = 0; ///< frames submitted since the window's images were made anew
     scene::Camera camera_;
     std::vector<Material> materials_;
+    std::vector<float> radii_; ///< of the materials, mm; made when they are first shown
     std::vector<scene::Surface> surfaces_;
     std::vector<scene::Light> lights_;
     float environmentIntensity_;

@@ -12,19 +12,6 @@ namespace {
 constexpr float poleDistance = 0.02f;
 constexpr float nearestShare = 1e-4f; // of a distance, at one zoom
 
-struct Basis {
-    glm::vec3 right;
-    glm::vec3 up;
-    glm::vec3 forward;
-};
-
-Basis basisOf(const scene::Camera& camera) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-    glm::vec3 right = glm::cross(forward, camera.up);
-    right = glm::length(right) > 1e-6f ? glm::normalize(right) : glm::vec3(1, 0, 0);
-    return {right, glm::cross(right, forward), forward};
-}
-
 /// The vector turned to the right about the up axis, and up, stopping before the poles.
 glm::vec3 turned(const scene::Camera& camera, const glm::vec3& vector, glm::vec2 turn) {
     const glm::vec3 axis = glm::normalize(camera.up);
@@ -37,13 +24,6 @@ glm::vec3 turned(const scene::Camera& camera, const glm::vec3& vector, glm::vec2
     return glm::vec3(around * up * glm::vec4(vector, 0));
 }
 
-/// Scene units that the picture is high where the target is.
-float heightAtTarget(const scene::Camera& camera) {
-    return camera.projection == scene::ProjectionKind::Orthographic
-               ? camera.orthographicHeight
-               : 2 * glm::distance(camera.position, camera.target) * std::tan(camera.verticalFieldOfView / 2);
-}
-
 /// Planes that were fitted to the scene, as the camera's own would cut it where it moves.
 void forgetPlanes(scene::Camera& camera) {
     camera.nearPlane = 0;
@@ -52,13 +32,26 @@ void forgetPlanes(scene::Camera& camera) {
 
 } // namespace
 
+CameraAxes axesOf(const scene::Camera& camera) {
+    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
+    glm::vec3 right = glm::cross(forward, camera.up);
+    right = glm::length(right) > 1e-6f ? glm::normalize(right) : glm::vec3(1, 0, 0);
+    return {right, glm::cross(right, forward), forward};
+}
+
+float heightAtTarget(const scene::Camera& camera) {
+    return camera.projection == scene::ProjectionKind::Orthographic
+               ? camera.orthographicHeight
+               : 2 * glm::distance(camera.position, camera.target) * std::tan(camera.verticalFieldOfView / 2);
+}
+
 void orbit(scene::Camera& camera, glm::vec2 turn) {
     camera.position = camera.target + turned(camera, camera.position - camera.target, {turn.x, turn.y});
     forgetPlanes(camera);
 }
 
 void pan(scene::Camera& camera, glm::vec2 share) {
-    const Basis basis = basisOf(camera);
+    const CameraAxes basis = axesOf(camera);
     const float height = heightAtTarget(camera);
     const glm::vec3 step = height * (-share.x * basis.right + share.y * basis.up);
     camera.position += step;
@@ -77,7 +70,7 @@ void zoom(scene::Camera& camera, float factor) {
 }
 
 void fly(scene::Camera& camera, const glm::vec3& steps) {
-    const Basis basis = basisOf(camera);
+    const CameraAxes basis = axesOf(camera);
     const glm::vec3 step = steps.x * basis.right + steps.y * basis.up + steps.z * basis.forward;
     camera.position += step;
     camera.target += step;

@@ -5,6 +5,17 @@
 
 namespace nacre::view {
 
+/// Unit vectors of a camera's picture.
+struct CameraAxes {
+    glm::vec3 right;
+    glm::vec3 up;
+    glm::vec3 forward;
+};
+CameraAxes axesOf(const scene::Camera& camera);
+
+/// Scene units that the picture is high where the target is.
+float heightAtTarget(const scene::Camera& camera);
+
 /// Moves around the target: `turn` [rad], right and up. The camera never passes over the poles of its up vector.
 void orbit(scene::Camera& camera, glm::vec2 turn);
 /// Moves camera and target in the picture's plane; `share` of the picture's height, right and down.

@@ -1,8 +1,10 @@
 #include "view/model/edited_scene.hpp"
 
+#include "image/image_file.hpp"
 #include "nacre/presets.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nacre::view {
 namespace {
@@ -57,7 +59,38 @@ EditedScene editedOf(scene::Scene& scene) {
     edited.lights = scene.lights;
     edited.environmentIntensity = scene.environment.intensity;
     edited.environmentRotation = scene.environment.rotation;
+    edited.environmentFile = scene.environment.file;
+    if (scene.environment.image) {
+        edited.environmentImage = std::make_shared<const Image>(*scene.environment.image);
+    }
     return edited;
+}
+
+scene::Scene sceneOf(const scene::Scene& scene, const EditedScene& edited) {
+    scene::Scene result = scene;
+    result.materials = drawnMaterials(edited);
+    result.surfaces = edited.surfaces;
+    result.lights = edited.lights;
+    result.environment.intensity = edited.environmentIntensity;
+    result.environment.rotation = edited.environmentRotation;
+    result.environment.file = edited.environmentFile;
+    result.environment.image = edited.environmentImage ? std::optional(*edited.environmentImage) : std::nullopt;
+    result.exposure = scene.exposure * std::exp2(edited.exposureStops);
+    return result;
+}
+
+void setEnvironment(EditedScene& edited, const std::filesystem::path& file) {
+    edited.environmentImage.reset();
+    edited.environmentFile.clear();
+    if (file.empty()) {
+        return;
+    }
+    Image image = readRadiance(file);
+    if (!std::ranges::all_of(image.values, [](float value) { return value >= 0 && std::isfinite(value); })) {
+        throw FileError(file.string() + ": has negative, infinite or NaN pixels, and cannot light a scene");
+    }
+    edited.environmentImage = std::make_shared<const Image>(std::move(image));
+    edited.environmentFile = file.string();
 }
 
 std::vector<Material> drawnMaterials(const EditedScene& edited) {

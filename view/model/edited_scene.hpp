@@ -3,6 +3,8 @@
 
 #include "scene/scene.hpp"
 
+#include <filesystem>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -24,14 +26,23 @@ struct EditedScene {
     std::vector<scene::Surface> surfaces;
     std::vector<scene::Light> lights;
     float environmentIntensity = 1;
-    float environmentRotation = 0; ///< [rad]
-    float exposureStops = 0;       ///< the picture is multiplied by 2^stops
+    float environmentRotation = 0;                 ///< [rad]
+    std::string environmentFile;                   ///< that `environmentImage` was read from
+    std::shared_ptr<const Image> environmentImage; ///< null: the built-in sky
+    float exposureStops = 0;                       ///< the picture is multiplied by 2^stops
 };
 
 /// What can be changed of this scene. One without a material gets one, skin, that no surface has yet.
 EditedScene editedOf(scene::Scene& scene);
 
 std::vector<Material> drawnMaterials(const EditedScene& edited);
+
+/// The scene with what was edited in it.
+scene::Scene sceneOf(const scene::Scene& scene, const EditedScene& edited);
+
+/// Light from all around by an equirectangular .hdr or .exr file; with an empty name by the built-in sky. Throws
+/// FileError.
+void setEnvironment(EditedScene& edited, const std::filesystem::path& file);
 
 /// Puts another material in place of `index`. Surfaces that have it take over its albedo, roughness and specular, where
 /// they have no texture for them; if no surface of the scene has a material, all get it.

@@ -126,7 +126,7 @@ std::optional<Inspection> inspect(const trace::Geometry& geometry, const EditedS
     result.pixelsPerMillimeter = height / (heightThere * scene.metersPerUnit * 1000);
     const std::uint32_t material = edited.surfaces[result.surface].material;
     if (material == scene::none) {
-        result.sentence = "It has no subsurface material: light leaves where it falls..";
+        result.sentence = "It has no subsurface material: light leaves where it falls.";
         return result;
     }
     result.material = material;

@@ -22,7 +22,7 @@ std::string floatText(float value) {
 }
 
 std::string rgbText(const float (&values)[3]) {
-    return "{" + floatText(values[0]) + ", " + floatText(values[1]) + ", " + floatText(values[2]) + "}";
+    return std::string("{") + floatText(values[0]) + ", " + floatText(values[1]) + ", " + floatText(values[2]) + "}";
 }
 
 /// The name as an identifier of C: "skin by its contents" becomes skin_by_its_contents.

@@ -1,12 +1,14 @@
 #include "view/window/compare_panel.hpp"
 
 #include "image/image_file.hpp"
-#include "image/metrics.hpp"
+#include "view/window/shown_image.hpp"
 
 #include <QFileDialog>
 #include <QFormLayout>
+#include <QPixmap>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nacre::view {
@@ -33,11 +35,12 @@ ComparePanel::ComparePanel(QWidget* parent)
       mode_(new QComboBox),
       first_(new QComboBox),
       second_(new QComboBox),
-      restart_(new QPushButton("Start the reference again")),
+      restart_(new QPushButton("Start the &reference again")),
       progress_(new QLabel),
-      error_(new QLabel) {
+      error_(new QLabel),
+      map_(new QLabel) {
     mode_->setObjectName("compare.mode");
-    mode_->addItems({"A alone", "A and B, divided", "Difference"});
+    mode_->addItems({"A alone", "A and B, divided", "Difference, heat map"});
     mode_->setToolTip("F2 goes through them. The divider can be dragged in the picture");
     first_->setObjectName("compare.first");
     second_->setObjectName("compare.second");
@@ -61,20 +64,33 @@ ComparePanel::ComparePanel(QWidget* parent)
     second_->addItems({pictureRow, referenceRow});
     second_->setCurrentIndex(1);
     auto* form = new QFormLayout;
-    form->addRow("Show", mode_);
-    form->addRow("A, left", first_);
-    form->addRow("B, right", second_);
+    form->addRow("Sho&w", mode_);
+    form->addRow("&A, left", first_);
+    form->addRow("&B, right", second_);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(form);
     layout->addWidget(restart_);
     layout->addWidget(progress_);
     layout->addWidget(error_);
+    map_->setObjectName("compare.map");
+    map_->setToolTip("FLIP of every pixel: black, no difference is seen; white, the largest");
+    map_->setAccessibleName("FLIP of every pixel");
+    layout->addWidget(map_);
     layout->addStretch();
     restart_->hide();
 
     connect(mode_, &QComboBox::currentIndexChanged, this, &ComparePanel::chosen);
     connect(first_, &QComboBox::currentIndexChanged, this, &ComparePanel::chosen);
     connect(second_, &QComboBox::currentIndexChanged, this, &ComparePanel::chooseSecond);
+    // Whoever chooses what to compare with wants to see it, also where it was chosen already.
+    for (const QComboBox* list : {first_, second_}) {
+        connect(list, &QComboBox::activated, this, [this] {
+            if (!isComparing()) {
+                mode_->setCurrentIndex(1);
+            }
+        });
+    }
+    connect(&pollError_, &QTimer::timeout, this, &ComparePanel::pollError);
     connect(restart_, &QPushButton::clicked, this, &ComparePanel::startReference);
     connect(&poll_, &QTimer::timeout, this, &ComparePanel::poll);
 }
@@ -191,6 +207,9 @@ void ComparePanel::poll() {
         return;
     }
     QString text = QString("Reference: %1 samples a pixel").arg(state.samples, 0, 'f', 1);
+    if (state.version == 0) {
+        text += "; it is seen once every pixel has one";
+    }
     if (std::isfinite(state.noise) && state.noise > 0) {
         text += QString(", noise %1 %").arg(100 * state.noise, 0, 'g', 2);
     }
@@ -207,27 +226,54 @@ void ComparePanel::measure() {
         startReference(); // the picture stands still again
         return;
     }
-    if (!isComparing() || !readSide) {
+    const bool hasNothing = isReference() && version_ == 0;
+    if (!isComparing() || !readSide || hasNothing) {
         error_->clear();
+        map_->clear();
         return;
     }
-    const renderer::SidePicture first = readSide(0);
-    const renderer::SidePicture second = readSide(1);
+    renderer::SidePicture first = readSide(0);
+    renderer::SidePicture second = readSide(1);
     if (first.shown.values.size() != second.shown.values.size() || second.samples == 0) {
         return;
     }
-    const double psnr =
-        errors(toEncoding(first.shown, Encoding::Srgb), toEncoding(second.shown, Encoding::Srgb)).psnr(1);
-    QString text = std::isfinite(psnr) ? QString("PSNR of A against B: %1 dB.").arg(psnr, 0, 'f', 1)
-                                       : QString("A and B are equal.");
+    SidePair pair{std::move(first.shown), std::move(second.shown), {}, {}};
     if (!pictureIsDisplayed_ || !isPicture()) {
-        const std::vector<ErrorSums> channels = channelErrors(first.light, second.light);
-        text += QString(" Light, A over B: red %1, green %2, blue %3.")
-                    .arg(channels[0].energyRatio(), 0, 'f', 3)
-                    .arg(channels[1].energyRatio(), 0, 'f', 3)
-                    .arg(channels[2].energyRatio(), 0, 'f', 3);
+        pair.firstLight = std::move(first.light);
+        pair.secondLight = std::move(second.light);
+    }
+    errorTask_.begin(std::move(pair));
+    pollError_.start(pollMilliseconds);
+}
+
+bool ComparePanel::isMeasuring() const {
+    return errorTask_.isBusy();
+}
+
+void ComparePanel::pollError() {
+    if (const std::optional<SideError> error = errorTask_.take(); error && isComparing()) {
+        showError(*error);
+    }
+    if (!errorTask_.isBusy()) {
+        pollError_.stop();
+    }
+}
+
+void ComparePanel::showError(const SideError& error) {
+    QString text =
+        std::isfinite(error.psnr)
+            ? QString("PSNR of A against B: %1 dB\nFLIP: %2").arg(error.psnr, 0, 'f', 1).arg(error.flip, 0, 'f', 4)
+            : QString("A and B are equal.");
+    if (error.energyRatio) {
+        text += QString("\nLight, A over B: red %1, green %2, blue %3")
+                    .arg((*error.energyRatio)[0], 0, 'f', 3)
+                    .arg((*error.energyRatio)[1], 0, 'f', 3)
+                    .arg((*error.energyRatio)[2], 0, 'f', 3);
     }
     error_->setText(text);
+    constexpr int mapWidth = 300; // px: as wide as the panel at least is
+    map_->setPixmap(
+        QPixmap::fromImage(toQImage(error.map)).scaledToWidth(std::min(mapWidth, width()), Qt::SmoothTransformation));
 }
 
 } // namespace nacre::view

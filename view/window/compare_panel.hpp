@@ -3,6 +3,7 @@
 
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
+#include "view/loop/side_error.hpp"
 
 #include <QComboBox>
 #include <QLabel>
@@ -37,8 +38,9 @@ public:
     /// Ends the reference, whose scene or camera is no longer what is seen.
     void outdate();
     void stop() { reference_.reset(); }
-    /// Both sides have all their samples: measures.
+    /// Both sides have all their samples: measures them, beside the window.
     void measure();
+    bool isMeasuring() const;
     /// Loads the picture of side B. Throws FileError.
     void loadPicture(const QString& file);
 
@@ -52,6 +54,8 @@ private:
     void chooseSecond();
     void startReference();
     void poll();
+    void pollError();
+    void showError(const SideError& error);
     bool isReference() const;
     bool isPicture() const;
 
@@ -65,6 +69,9 @@ private:
     std::unique_ptr<ReferenceTask> reference_;
     std::uint64_t version_ = 0;
     QTimer poll_;
+    QLabel* map_;
+    SideErrorTask errorTask_;
+    QTimer pollError_;
     bool pictureIsDisplayed_ = false;
     float divider_ = 0.5f;
 };

@@ -1,9 +1,11 @@
 #include "view/window/document.hpp"
 
+#include "scene/files/save_scene_file.hpp"
+#include "view/model/edited_file.hpp"
+
 #include <QFileSystemWatcher>
 
 #include <algorithm>
-#include <cmath>
 
 namespace nacre::view {
 namespace {
@@ -49,7 +51,8 @@ Document::Document(QObject* parent) : QObject(parent), history_(this), watcher_(
 
 void Document::openScene(scene::Scene scene, const std::filesystem::path& file) {
     scene_ = std::move(scene);
-    edited_ = editedOf(scene_);
+    edited_ = saved_ = editedOf(scene_);
+    fileSurfaces_ = scene_.surfaces;
     file_ = file;
     history_.clear();
     material_ = 0;
@@ -77,14 +80,31 @@ void Document::watch() {
 }
 
 scene::Scene Document::current() const {
-    scene::Scene result = scene_;
-    result.materials = drawnMaterials(edited_);
-    result.surfaces = edited_.surfaces;
-    result.lights = edited_.lights;
-    result.environment.intensity = edited_.environmentIntensity;
-    result.environment.rotation = edited_.environmentRotation;
-    result.exposure = scene_.exposure * std::exp2(edited_.exposureStops);
-    return result;
+    return sceneOf(scene_, edited_);
+}
+
+bool Document::isSaved() const {
+    return history_.isClean() || formatEdited(edited_) == formatEdited(saved_);
+}
+
+void Document::saveScene(const std::filesystem::path& file, const scene::Camera& camera) {
+    scene::Scene scene = current();
+    std::erase_if(scene.cameras, [&](const scene::Camera& other) { return other.name == camera.name; });
+    scene.cameras.insert(scene.cameras.begin(), camera);
+    if (!watcher_->files().isEmpty()) {
+        watcher_->removePaths(watcher_->files()); // this change of the file is ours
+    }
+    try {
+        scene::saveSceneFile(scene, fileSurfaces_, file_, file);
+    } catch (...) {
+        watch();
+        throw;
+    }
+    file_ = file;
+    saved_ = edited_;
+    fileSurfaces_ = edited_.surfaces;
+    history_.setClean();
+    watch();
 }
 
 QString Document::name() const {

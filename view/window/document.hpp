@@ -38,6 +38,14 @@ public:
     void endEdit() { ++edit_; }
     QUndoStack& history() { return history_; }
 
+    /// Whether everything that was edited is in files.
+    bool isSaved() const;
+    /// Writes the scene as it is, seen by `camera`, to a scene file, which is the document's file from now on. Throws
+    /// FileError; nothing is lost then.
+    void saveScene(const std::filesystem::path& file, const scene::Camera& camera);
+    /// Says that the material that is shown has been written to a file.
+    void materialSaved() { saved_.materials[material_] = edited_.materials[material_]; }
+
     /// Which material, layer and light the panels show.
     std::size_t material() const { return material_; }
     std::size_t light() const { return light_; }
@@ -59,6 +67,8 @@ private:
 
     scene::Scene scene_;
     EditedScene edited_;
+    EditedScene saved_;                        ///< what files have of it
+    std::vector<scene::Surface> fileSurfaces_; ///< as `file_` has them
     std::filesystem::path file_;
     QUndoStack history_;
     QFileSystemWatcher* watcher_;

@@ -9,8 +9,8 @@ InspectPanel::InspectPanel(Document& document, QWidget* parent)
       document_(document),
       text_(new QLabel("Click a body in the picture: this says what it is, and why light scatters or comes through "
                        "there, or why not.")),
-      give_(new QPushButton("Give it the material shown")),
-      take_(new QPushButton("Take its material away")) {
+      give_(new QPushButton("&Give it the material shown")),
+      take_(new QPushButton("&Take its material away")) {
     text_->setObjectName("inspect.text");
     text_->setWordWrap(true);
     text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);

@@ -51,12 +51,12 @@ LayerList::LayerList(Document& document, QWidget* parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(list_);
     layout->addWidget(buttons_);
-    addButton("layers.add", "Add", "Add a layer twice as wide as the widest",
+    addButton("layers.add", "&Add", "Add a layer twice as wide as the widest",
               [this] { change("add layer", [](EditedMaterial& material) { addLayer(material); }); });
-    addButton("layers.duplicate", "Duplicate", "Add a copy of this layer", [this] {
+    addButton("layers.duplicate", "Dupli&cate", "Add a copy of this layer", [this] {
         change("duplicate layer", [i = layer()](EditedMaterial& material) { duplicateLayer(material, i); });
     });
-    addButton("layers.remove", "Remove", "Remove this layer", [this] {
+    addButton("layers.remove", "&Remove", "Remove this layer", [this] {
         change("remove layer", [i = layer()](EditedMaterial& material) { removeLayer(material, i); });
     });
     addButton("layers.up", "Up", "Move this layer up", [this] { move(-1); });

@@ -1,6 +1,7 @@
 #include "view/window/light_panel.hpp"
 
 #include "scene/default_view.hpp"
+#include "view/model/light_handles.hpp"
 
 #include <QColorDialog>
 #include <QHBoxLayout>
@@ -19,7 +20,7 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
       lights_(new QComboBox),
       kind_(new QComboBox),
       color_(new QPushButton),
-      shadow_(new QCheckBox("Casts a shadow")),
+      shadow_(new QCheckBox("Casts a shado&w")),
       parameters_(new ParameterPanel<scene::Light>(lightParameters())) {
     lights_->setObjectName("light");
     kind_->setObjectName("light.kind");
@@ -40,23 +41,29 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
             }
             layout->addLayout(row);
         };
-    addRow({{"light.front", "Front", "Only the lights on the camera's side", [this] { chooseSide(true); }},
-            {"light.back", "Back", "Only the lights on the far side: what comes through thin parts",
+    addRow({{"light.front", "Fr&ont", "Only the lights on the camera's side", [this] { chooseSide(true); }},
+            {"light.back", "&Back", "Only the lights on the far side: what comes through thin parts",
              [this] { chooseSide(false); }},
-            {"light.all", "All", "All lights of the scene", [this] { chooseAll(); }}});
+            {"light.all", "A&ll", "All lights of the scene", [this] { chooseAll(); }}});
     auto* form = new QFormLayout;
-    form->addRow("Light", lights_);
-    form->addRow("Kind", kind_);
-    form->addRow("Colour", color_);
+    form->addRow("L&ight", lights_);
+    form->addRow("&Kind", kind_);
+    form->addRow("&Colour", color_);
     form->addRow("", shadow_);
     layout->addLayout(form);
     layout->addWidget(parameters_);
-    addRow(
-        {{"light.addDirectional", "Add sun", "Add a directional light", [this] { add(scene::LightKind::Directional); }},
-         {"light.addSpot", "Add spot", "Add a spot light where the camera is", [this] { add(scene::LightKind::Spot); }},
-         {"light.addPoint", "Add point", "Add a point light beside the camera",
-          [this] { add(scene::LightKind::Point); }},
-         {"light.remove", "Remove", "Remove this light", [this] { remove(); }}});
+    addRow({{"light.addDirectional", "Add s&un", "Add a directional light, from above on the right",
+             [this] { add(scene::LightKind::Directional); }},
+            {"light.addSpot", "Add &spot", "Add a spot light that shines on what the camera looks at",
+             [this] { add(scene::LightKind::Spot); }},
+            {"light.addPoint", "Add &point", "Add a point light above what the camera looks at",
+             [this] { add(scene::LightKind::Point); }},
+            {"light.remove", "&Remove", "Remove this light", [this] { remove(); }}});
+    auto* hint =
+        new QLabel("Each light is a disc in the picture: drag it. A ring is behind what is seen. Drag a spot with "
+                   "Shift to aim it, a spot or a point light with Ctrl to move it nearer or farther.");
+    hint->setWordWrap(true);
+    layout->addWidget(hint);
     layout->addStretch();
 
     parameters_->onChange = [this](const Parameter<scene::Light>& parameter, double value) {
@@ -109,19 +116,8 @@ void LightPanel::refresh() {
 }
 
 void LightPanel::add(scene::LightKind kind) {
-    const scene::Camera camera = camera_();
-    scene::Light light;
+    scene::Light light = newLight(kind, camera_(), document_.scene().metersPerUnit);
     light.name = "light " + std::to_string(document_.edited().lights.size() + 1);
-    light.kind = kind;
-    light.position = camera.position;
-    light.direction = glm::normalize(camera.target - camera.position);
-    light.outerConeAngle = 0.4f;
-    light.innerConeAngle = 0.3f;
-    if (kind != scene::LightKind::Directional) {
-        const float metres =
-            glm::distance(camera.position, camera.target) * static_cast<float>(document_.scene().metersPerUnit);
-        light.intensity = 3 * metres * metres; // as bright as a directional light of 3 where the camera looks
-    }
     document_.edit("add light", {}, [&](EditedScene& scene) { scene.lights.push_back(light); });
     document_.selectLight(document_.edited().lights.size() - 1);
 }

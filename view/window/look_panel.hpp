@@ -16,16 +16,27 @@ public:
     explicit LookPanel(Document& document, QWidget* parent = nullptr);
 
     renderer::ToneCurve toneCurve() const;
+    renderer::Backdrop backdrop() const;
     renderer::ShownImage image() const;
+    /// Whether the image is to be of the light alone that the panel Light shows.
+    bool isOfOneLight() const;
+    /// Asks for an environment; `failed` says what is wrong with it.
+    void chooseEnvironment();
+    void setEnvironment(const QString& file);
 
 Q_SIGNALS:
     /// Something that is no part of the scene was chosen.
     void chosen();
+    void failed(QString sentence);
 
 private:
+    void refresh();
+
     Document& document_;
     ParameterPanel<EditedScene>* parameters_;
+    QLabel* environment_;
     QComboBox* curve_;
+    QComboBox* backdrop_;
     QComboBox* image_;
 };
 

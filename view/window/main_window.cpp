@@ -1,9 +1,6 @@
 #include "view/window/main_window.hpp"
 
-#include "nacre/files.hpp"
 #include "renderer/vulkan/open_device.hpp"
-#include "scene/gallery/gallery.hpp"
-#include "scene/import.hpp"
 #include "view/window/compare_panel.hpp"
 #include "view/window/inspect_panel.hpp"
 #include "view/window/look_panel.hpp"
@@ -12,11 +9,10 @@
 #include "view/window/timing_panel.hpp"
 
 #include <QApplication>
-#include <QCloseEvent>
 #include <QDeadlineTimer>
 #include <QDockWidget>
 #include <QMessageBox>
-#include <QMimeData>
+#include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
 
@@ -30,8 +26,9 @@ constexpr std::uint32_t softwareSamples = 16;
 constexpr std::uint32_t mostLights = 16;
 constexpr std::uint32_t mostShadowLayers = 12; // a point light has six
 constexpr float composedAspect = 16.0f / 9;    // what scenes' cameras are made for
-constexpr int reloadMilliseconds = 300;        // after a change, until its writer has finished
 constexpr int recoveryMilliseconds = 500;      // after an edit, until it is safe
+constexpr int swatchMilliseconds = 2;          // until the device is asked again
+constexpr int noteMilliseconds = 10'000;       // that a sentence stays in the status bar
 
 bool sameEffect(const renderer::EffectSettings& one, const renderer::EffectSettings& other) {
     return one.technique == other.technique && one.scatter == other.scatter && one.transmit == other.transmit;
@@ -93,29 +90,61 @@ MainWindow::MainWindow(const renderer::DeviceSettings& device) : device_(windowD
     connect(&document_, &Document::changed, this, &MainWindow::applyScene);
     connect(&document_, &Document::changedOnDisk, this, &MainWindow::changedOnDisk);
     connect(picture_, &PictureWindow::stepped, this, &MainWindow::showStatus);
-    connect(picture_, &PictureWindow::failed, this, &MainWindow::complain);
+    connect(picture_, &PictureWindow::failed, this, &MainWindow::pictureFailed);
+    connect(picture_, &PictureWindow::lost, this, &MainWindow::deviceLost);
+    connectLights();
     connect(picture_, &PictureWindow::clicked, this, &MainWindow::pick);
-    connect(picture_, &PictureWindow::dropped, this, &MainWindow::openDropped);
+    connect(picture_, &PictureWindow::dropped, this, &MainWindow::openAny);
     connect(picture_, &PictureWindow::keyed, this, [this](QKeyEvent* event) { keyPressEvent(event); });
     connect(picture_, &PictureWindow::dividerMoved, compare_, &ComparePanel::setDivider);
     connect(picture_, &PictureWindow::cameraMoved, compare_, &ComparePanel::outdate);
     recovery_ = std::make_unique<Recovery>();
     recoveryTimer_.setSingleShot(true);
-    connect(&recoveryTimer_, &QTimer::timeout, this, [this] {
-        try {
-            if (document_.history().isClean()) {
-                recovery_->remove();
-                return;
-            }
-            recovery_->save(QString::fromStdString(document_.file().string()), document_.edited());
-        } catch (const std::exception& error) {
-            complain(QString::fromUtf8(error.what()));
+    swatchTimer_.setSingleShot(true);
+    connect(&swatchTimer_, &QTimer::timeout, this, &MainWindow::drawSwatch);
+    connect(&recoveryTimer_, &QTimer::timeout, this, &MainWindow::saveRecovery);
+}
+
+/// Whether the panel Material shows a swatch of what is no longer the material.
+bool MainWindow::isSwatchDue() const {
+    return loop_ && (swatchTimer_.isActive() ||
+                     (material_->isSwatchSeen() &&
+                      swatchMaterial_ != document_.edited().materials.at(document_.material()).drawn()));
+}
+
+/// The picture comes first: the swatch is drawn while that stands still.
+void MainWindow::drawSwatch() {
+    if (!loop_ || !loop_->isConverged()) {
+        return;
+    }
+    try {
+        if (!swatch_) {
+            constexpr double millimetersPerInch = 25.4;
+            swatch_ = std::make_unique<Swatch>(device_, screen()->physicalDotsPerInch() * devicePixelRatioF() /
+                                                            millimetersPerInch);
         }
-    });
+        const Material material = document_.edited().materials.at(document_.material()).drawn();
+        if (swatchMaterial_ != material) {
+            swatch_->setMaterial(material);
+            swatchMaterial_ = material;
+        }
+        if (swatch_->step()) {
+            material_->showSwatch(swatch_->picture());
+        } else {
+            swatchTimer_.start(swatchMilliseconds);
+        }
+    } catch (const renderer::DeviceLost& error) {
+        deviceLost(QString::fromUtf8(error.what()));
+    } catch (const std::exception& error) {
+        complain(QString::fromUtf8(error.what()));
+    }
 }
 
 MainWindow::~MainWindow() {
     compare_->stop();
+    if (quiet_) {
+        recovery_->remove(); // a script's edits are no one's
+    }
     picture_->setLoop(nullptr, picture_->camera(), 1);
     // The picture's surface has to go before its instance, which is the device's.
     delete pictureContainer_;
@@ -128,46 +157,6 @@ void MainWindow::restoreWindow() {
         restoreGeometry(stored.value("geometry").toByteArray());
     }
     setDark(stored.value("dark", true).toBool());
-}
-
-void MainWindow::openPath(const QString& file, const std::function<scene::Scene()>& load) {
-    statusBar()->showMessage("Opening " + (file.isEmpty() ? QString("the gallery") : file) + " …");
-    QApplication::setOverrideCursor(Qt::WaitCursor);
-    QApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
-    opening_ = true;
-    const auto end = [this] {
-        opening_ = false;
-        QApplication::restoreOverrideCursor();
-        statusBar()->clearMessage();
-    };
-    try {
-        document_.openScene(load(), file.toStdString());
-    } catch (...) {
-        end();
-        throw;
-    }
-    end();
-}
-
-bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scene()>& load) {
-    try {
-        openPath(file, load);
-    } catch (const std::exception& error) {
-        complain(QString::fromUtf8(error.what()));
-        return false;
-    }
-    if (!file.isEmpty()) {
-        rememberRecent(file);
-    }
-    if (!document_.scene().notes.empty()) {
-        constexpr int shownMilliseconds = 10'000;
-        statusBar()->showMessage(QString::fromStdString(document_.scene().notes.front()), shownMilliseconds);
-    }
-    return true;
-}
-
-bool MainWindow::openFile(const QString& file) {
-    return openLoaded(file, [&] { return file.isEmpty() ? scene::makeGallery() : scene::load(file.toStdString()); });
 }
 
 void MainWindow::makeLoop() {
@@ -187,6 +176,9 @@ void MainWindow::makeLoop() {
     for (std::uint32_t side = 0; side < renderer::Accumulation::sideCount; ++side) {
         loop_->setSide(side, sides_[side]);
     }
+    loop_->onFinished = [this](const renderer::FrameReport& report) {
+        timing_->add(report, loop_->stepMilliseconds());
+    };
 }
 
 void MainWindow::sceneOpened() {
@@ -196,13 +188,20 @@ void MainWindow::sceneOpened() {
     loop_.reset();
     drawn_ = document_.scene();
     makeLoop();
-    loop_->onFinished = [this](const renderer::FrameReport& report) {
-        timing_->add(report, loop_->stepMilliseconds());
-    };
     applyView();
     picture_->setLoop(loop_.get(), firstCamera(), scene::bounds(drawn_).radius());
     inspect_->show(std::nullopt);
     setWindowTitle("Nacre – " + document_.name());
+}
+
+/// Other surroundings are prepared with everything else; the camera stays.
+void MainWindow::remakeLoop() {
+    const scene::Camera camera = picture_->camera();
+    picture_->setLoop(nullptr, camera, 1);
+    loop_.reset();
+    drawn_.environment = document_.current().environment;
+    makeLoop();
+    picture_->setLoop(loop_.get(), camera, scene::bounds(drawn_).radius());
 }
 
 /// Hands everything that was edited to the loop; what is as it was costs next to nothing.
@@ -212,10 +211,12 @@ void MainWindow::applyScene() {
     }
     try {
         const EditedScene& edited = document_.edited();
+        if (edited.environmentFile != drawn_.environment.file) {
+            remakeLoop();
+        }
         loop_->setMaterials(drawnMaterials(edited));
         loop_->setSurfaces(edited.surfaces);
-        loop_->setLights(edited.lights);
-        loop_->setEnvironment(edited.environmentIntensity, edited.environmentRotation);
+        applyLights();
         applyView();
         if (!opening_) {
             picture_->move();
@@ -229,24 +230,17 @@ void MainWindow::applyScene() {
     }
 }
 
-/// A scene without edits follows its file. Edits are not thrown away without being asked.
-void MainWindow::changedOnDisk() {
-    if (document_.history().isClean()) {
-        QTimer::singleShot(reloadMilliseconds, this, &MainWindow::reload);
-    } else {
-        note(document_.name() + " has changed on disk; F5 reads it again and forgets what was edited");
-    }
-}
-
 /// The scene's first camera. A window that is narrower than pictures are composed for shows as much from left to right.
 scene::Camera MainWindow::firstCamera() const {
     scene::Camera camera = drawn_.cameras.at(0);
-    const QSize size = picture_->pictureSize();
-    const float widen =
-        std::max(1.0f, composedAspect * static_cast<float>(size.height()) / static_cast<float>(size.width()));
-    camera.verticalFieldOfView = 2 * std::atan(widen * std::tan(camera.verticalFieldOfView / 2));
-    camera.orthographicHeight *= widen;
+    camera.verticalFieldOfView = 2 * std::atan(widening() * std::tan(camera.verticalFieldOfView / 2));
+    camera.orthographicHeight *= widening();
     return camera;
+}
+
+float MainWindow::widening() const {
+    const QSize size = picture_->pictureSize();
+    return std::max(1.0f, composedAspect * static_cast<float>(size.height()) / static_cast<float>(size.width()));
 }
 
 /// What is shown of the frames.
@@ -257,6 +251,7 @@ void MainWindow::applyView() {
     renderer::SampleLook look;
     look.image = look_->image();
     look.curve = look_->toneCurve();
+    look.backdrop = look_->backdrop();
     look.exposure = document_.scene().exposure * std::exp2(document_.edited().exposureStops);
     const glm::vec3 center = scene::bounds(drawn_).center();
     const float distance = glm::distance(drawn_.cameras.at(0).position, center);
@@ -269,7 +264,7 @@ void MainWindow::applyView() {
             sides_[side] = wanted;
         }
     }
-    loop_->setShown(compare_->shown());
+    applyMarks();
     picture_->setComparing(compare_->isComparing() && compare_->shown().sides == renderer::ShownSides::Both);
     measured_ = false;
     picture_->wake();
@@ -284,7 +279,8 @@ void MainWindow::showStatus() {
     QString text = QString("%1 × %2 px").arg(size.width).arg(size.height);
     text += loop_->isCoarse() ? ", coarse while it moves"
             : loop_->isConverged()
-                ? QString(", %1 samples, finished").arg(loop_->samples(0))
+                ? QString(loop_->samples(0) == 1 ? ", %1 sample, finished" : ", %1 samples, finished")
+                      .arg(loop_->samples(0))
                 : QString(", sample %1 of %2").arg(loop_->samples(0)).arg(loop_->settings().stillSamples);
     if (report.totalMicroseconds > 0) {
         text += QString("   frame %1 ms, effect %2 ms")
@@ -292,12 +288,27 @@ void MainWindow::showStatus() {
                     .arg(effectMilliseconds(report), 0, 'f', report.totalMicroseconds < 1e4 ? 2 : 0);
     }
     pictureStatus_->setText(text);
+    pictureFault_.clear();
     if (!loop_->isConverged()) {
         measured_ = false;
     } else if (!measured_) {
         measured_ = true;
         compare_->measure();
     }
+    // A script draws it for its screenshots.
+    if (!quiet_ && loop_->isConverged() && !swatchTimer_.isActive() && isSwatchDue()) {
+        swatchTimer_.start(0);
+    }
+}
+
+void MainWindow::finishSwatch() {
+    if (!isSwatchDue()) {
+        return;
+    }
+    do {
+        drawSwatch();
+        QApplication::processEvents();
+    } while (swatchTimer_.isActive());
 }
 
 bool MainWindow::drawUntilStill(int milliseconds) {
@@ -314,19 +325,21 @@ bool MainWindow::drawUntilStill(int milliseconds) {
         if (loop_ && loop_->isConverged()) {
             loop_->wait();
             showStatus();
-            return true;
+            if (!compare_->isMeasuring()) {
+                return true;
+            }
         }
     }
     return false;
 }
 
 void MainWindow::note(const QString& sentence) {
-    statusBar()->showMessage(sentence);
+    statusBar()->showMessage(sentence, noteMilliseconds);
 }
 
 void MainWindow::complain(const QString& sentence) {
     lastFault_ = sentence;
-    statusBar()->showMessage(sentence);
+    statusBar()->showMessage(sentence, noteMilliseconds);
     if (!quiet_) {
         QMessageBox::warning(this, "Nacre", sentence);
     }
@@ -351,8 +364,8 @@ void MainWindow::pick(QPointF place) {
             material_->setScale(found->pixelsPerMillimeter);
         }
         inspect_->show(found);
-        statusBar()->showMessage(found ? QString::fromStdString(found->body + ": " + found->sentence)
-                                       : QString("There is no body at that place."));
+        note(found ? QString::fromStdString(found->body + ": " + found->sentence)
+                   : QString("There is no body at that place."));
     } catch (const std::exception& error) {
         complain(QString::fromUtf8(error.what()));
     }
@@ -361,67 +374,6 @@ void MainWindow::pick(QPointF place) {
 std::unique_ptr<ReferenceTask> MainWindow::makeReference() const {
     return std::make_unique<ReferenceTask>(document_.current(), picture_->camera(), loop_->extent().width,
                                            loop_->extent().height);
-}
-
-/// Materials go to files of their own; scenes and environments are opened.
-void MainWindow::openDropped(const QString& file) {
-    if (!file.endsWith(".json")) {
-        openFile(file);
-        return;
-    }
-    bool isMaterial = true;
-    try {
-        static_cast<void>(loadMaterial(file.toStdString()));
-    } catch (const std::exception&) {
-        isMaterial = false;
-    }
-    if (isMaterial) {
-        material_->load(file);
-    } else {
-        openFile(file);
-    }
-}
-
-void MainWindow::offerRecovered() {
-    const std::optional<Recovered> found = Recovery::take();
-    if (!found || quiet_ ||
-        QMessageBox::question(this, "Nacre", "Materials were edited the last time and not saved. Go on with them?") !=
-            QMessageBox::Yes) {
-        return;
-    }
-    if (found->scene != QString::fromStdString(document_.file().string()) && !openFile(found->scene)) {
-        return;
-    }
-    document_.edit("recover", {}, [&](EditedScene& scene) {
-        for (std::size_t i = 0; i < std::min(scene.materials.size(), found->materials.size()); ++i) {
-            scene.materials[i] = {found->materials[i], {}};
-            applyToSurfaces(scene, i);
-        }
-    });
-}
-
-void MainWindow::closeEvent(QCloseEvent* event) {
-    if (!quiet_) {
-        QSettings().setValue("geometry", saveGeometry());
-    }
-    compare_->stop();
-    if (quiet_ || document_.history().isClean()) {
-        recovery_->remove();
-    }
-    event->accept();
-}
-
-void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (event->mimeData()->hasUrls()) {
-        event->acceptProposedAction();
-    }
-}
-
-void MainWindow::dropEvent(QDropEvent* event) {
-    if (event->mimeData()->hasUrls()) {
-        event->acceptProposedAction();
-        openDropped(event->mimeData()->urls().first().toLocalFile());
-    }
 }
 
 } // namespace nacre::view

@@ -4,6 +4,7 @@
 #include "trace/geometry.hpp"
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
+#include "view/loop/swatch.hpp"
 #include "view/window/document.hpp"
 #include "view/window/picture_window.hpp"
 
@@ -22,6 +23,7 @@ class LightPanel;
 class LookPanel;
 class MaterialPanel;
 class Recovery;
+struct Recovered;
 class TimingPanel;
 
 class MainWindow : public QMainWindow {
@@ -42,8 +44,17 @@ public:
     bool openLoaded(const QString& file, const std::function<scene::Scene()>& load);
     /// Draws until everything that is shown has all its samples.
     bool drawUntilStill(int milliseconds);
+    /// Opens a scene or a model, or puts a material or surroundings into the scene that is open.
+    void openAny(const QString& file);
+    /// Writes the scene or the picture to a file; what goes wrong is said.
+    bool writeScene(const QString& file);
+    void writePicture(const QString& file);
+    /// Draws the panel Material's swatch, if it is seen and not what it should be.
+    void finishSwatch();
     /// Asks whether to go on with what a program that crashed has left.
     void offerRecovered();
+    /// Edits of the last moments that are not in a file of the user's.
+    void saveRecovery();
     /// Says a sentence that does not interrupt.
     void note(const QString& sentence);
     /// Says a sentence that the user has to see. Scripts and tests read it in `lastFault`.
@@ -88,12 +99,27 @@ private:
     std::unique_ptr<ReferenceTask> makeReference() const;
     const trace::Geometry& geometry();
     scene::Camera firstCamera() const;
-    void openDropped(const QString& file);
+    bool recover(const Recovered& found);
+    bool mayForget();
+    bool askAndSaveScene();
+    void deviceLost(const QString& sentence);
+    void pictureFailed(const QString& sentence);
+    void connectLights();
+    void applyLights();
+    void applyMarks();
+    void showLights(bool shown);
+    void changeLight(std::size_t index, const std::function<void(scene::Light&)>& change);
+    bool isSwatchDue() const;
+    void drawSwatch();
+    float widening() const;
+    void remakeLoop();
     void openPath(const QString& file, const std::function<scene::Scene()>& load);
     void makeLoop();
 
     void chooseFile();
+    void chooseEnvironment();
     void openGallery();
+    void saveScene();
     void reload();
     void savePicture();
     void resetCamera();
@@ -114,6 +140,9 @@ private:
     std::shared_ptr<trace::Geometry> geometry_; ///< of `drawn_`; made when it is first asked for
     std::unique_ptr<Recovery> recovery_;
     QTimer recoveryTimer_;
+    std::unique_ptr<Swatch> swatch_;
+    std::optional<Material> swatchMaterial_; ///< that the swatch shows or is about to
+    QTimer swatchTimer_;
     LookPanel* look_ = nullptr;
     MaterialPanel* material_ = nullptr;
     LightPanel* lights_ = nullptr;
@@ -122,11 +151,12 @@ private:
     TimingPanel* timing_ = nullptr;
     QMenu* recent_ = nullptr;
     QLabel* pictureStatus_ = nullptr;
-    QLabel* deviceStatus_ = nullptr;
     std::array<SideSettings, renderer::Accumulation::sideCount> sides_; ///< as the loop has them
     QString lastFault_;
+    QString pictureFault_; ///< what kept the last frame from being drawn
     std::optional<std::uint32_t> stillSamples_;
     bool quiet_ = false;
+    bool lightsShown_ = false; ///< the panel Light is open
     bool opening_ = false;
     bool measured_ = false;
 };

@@ -1,6 +1,5 @@
 // Menus, panels and status bar of the window.
-#include "image/image_file.hpp"
-#include "view/model/material_structs.hpp"
+#include "view/model/window_colors.hpp"
 #include "view/window/compare_panel.hpp"
 #include "view/window/inspect_panel.hpp"
 #include "view/window/light_panel.hpp"
@@ -10,10 +9,7 @@
 #include "view/window/timing_panel.hpp"
 
 #include <QApplication>
-#include <QClipboard>
 #include <QDockWidget>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QKeyEvent>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -27,43 +23,37 @@
 namespace nacre::view {
 namespace {
 
-constexpr int mostRecent = 8;
-constexpr const char* openFilter =
-    "Scenes and models (*.json *.gltf *.glb *.obj *.ply *.stl *.fbx *.dae *.3ds);;All files (*)";
-
 /// What the mouse and keys do in the picture.
 struct MouseRow {
     const char* keys;
     const char* what;
 };
-constexpr std::array mouse{MouseRow{"drag", "go around what is looked at"},
-                           MouseRow{"Shift and drag, middle button", "shift the picture"},
-                           MouseRow{"wheel, Ctrl and drag", "closer, farther"},
-                           MouseRow{"right button", "look around"},
-                           MouseRow{"W A S D Q E", "fly"},
-                           MouseRow{"click", "choose a body's material, and say what is there"},
-                           MouseRow{"drop", "open a scene, a model or a material"}};
+constexpr std::array mouse{
+    MouseRow{"drag", "go around what is looked at"},
+    MouseRow{"Shift and drag, middle button", "shift the picture"},
+    MouseRow{"wheel, Ctrl and drag", "closer, farther"},
+    MouseRow{"right button", "look around"},
+    MouseRow{"W A S D Q E", "fly"},
+    MouseRow{"click", "choose a body's material, and say what is there"},
+    MouseRow{"drag a light", "turn or move it; with Shift aim a spot, with Ctrl nearer or farther"},
+    MouseRow{"drop", "open a scene, a model, a material or surroundings"}};
 
-QPalette darkPalette() {
-    const QColor window(45, 45, 48);
-    const QColor base(30, 30, 32);
-    const QColor text(228, 228, 228);
-    const QColor faint(140, 140, 140);
-    QPalette palette(text, window);
-    palette.setColor(QPalette::Base, base);
-    palette.setColor(QPalette::AlternateBase, QColor(38, 38, 41));
-    palette.setColor(QPalette::Text, text);
-    palette.setColor(QPalette::Button, QColor(58, 58, 62));
-    palette.setColor(QPalette::ButtonText, text);
-    palette.setColor(QPalette::ToolTipBase, QColor(70, 70, 74));
-    palette.setColor(QPalette::ToolTipText, text);
-    palette.setColor(QPalette::PlaceholderText, faint);
-    palette.setColor(QPalette::Highlight, QColor(61, 110, 180));
-    palette.setColor(QPalette::HighlightedText, Qt::white);
-    palette.setColor(QPalette::Link, QColor(120, 170, 240));
-    for (const QPalette::ColorRole role : {QPalette::Text, QPalette::WindowText, QPalette::ButtonText}) {
-        palette.setColor(QPalette::Disabled, role, faint);
+QPalette paletteOf(const WindowColors& colors) {
+    const auto shown = [](const ShownColor& color) { return QColor(color[0], color[1], color[2]); };
+    QPalette palette(shown(colors.text), shown(colors.window));
+    palette.setColor(QPalette::Base, shown(colors.base));
+    palette.setColor(QPalette::AlternateBase, shown(colors.alternateBase));
+    palette.setColor(QPalette::Button, shown(colors.button));
+    palette.setColor(QPalette::ToolTipBase, shown(colors.toolTip));
+    for (const QPalette::ColorRole role :
+         {QPalette::Text, QPalette::WindowText, QPalette::ButtonText, QPalette::ToolTipText}) {
+        palette.setColor(role, shown(colors.text));
+        palette.setColor(QPalette::Disabled, role, shown(colors.faint));
     }
+    palette.setColor(QPalette::PlaceholderText, shown(colors.faint));
+    palette.setColor(QPalette::Highlight, shown(colors.highlight));
+    palette.setColor(QPalette::HighlightedText, shown(colors.highlightedText));
+    palette.setColor(QPalette::Link, shown(colors.link));
     return palette;
 }
 
@@ -77,7 +67,13 @@ void MainWindow::makePanels() {
     inspect_ = new InspectPanel(document_);
     timing_ = new TimingPanel;
     connect(material_, &MaterialPanel::failed, this, &MainWindow::complain);
-    connect(look_, &LookPanel::chosen, this, &MainWindow::applyView);
+    connect(look_, &LookPanel::failed, this, &MainWindow::complain);
+    connect(look_, &LookPanel::chosen, this, [this] {
+        if (loop_) {
+            applyLights();
+            applyView();
+        }
+    });
     connect(compare_, &ComparePanel::chosen, this, &MainWindow::applyView);
     connect(compare_, &ComparePanel::failed, this, &MainWindow::complain);
     connect(compare_, &ComparePanel::given, this, [this](const Image& image) { loop_->setGiven(image); });
@@ -94,6 +90,7 @@ void MainWindow::makePanels() {
         last = dock;
     }
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+    connect(findChild<QDockWidget*>("dock.light"), &QDockWidget::visibilityChanged, this, &MainWindow::showLights);
     material->raise();
 }
 
@@ -128,9 +125,13 @@ void MainWindow::makeMenus() {
         Action{"file.open", "&Open…", QKeySequence::Open, "Open a scene file or a model", &MainWindow::chooseFile},
         Action{"file.gallery", "&Gallery", QKeySequence("Ctrl+G"), "Open the built-in gallery",
                &MainWindow::openGallery},
+        Action{"file.environment", "Open s&urroundings…", QKeySequence("Ctrl+E"),
+               "Light the scene by an equirectangular .hdr or .exr file", &MainWindow::chooseEnvironment},
         Action{"file.reload", "&Reload", QKeySequence("F5"), "Read the file again", &MainWindow::reload},
-        Action{"file.saveMaterial", "&Save material…", QKeySequence::Save, "Write the material that is shown to a file",
-               &MainWindow::saveMaterial},
+        Action{"file.saveMaterial", "&Save material…", QKeySequence::Save,
+               "Write the material that is shown to a file, as JSON or as C structs", &MainWindow::saveMaterial},
+        Action{"file.saveScene", "S&ave scene…", QKeySequence("Ctrl+Shift+S"),
+               "Write the scene as it is to a scene file, which nacre render takes", &MainWindow::saveScene},
         Action{"file.copyStructs", "&Copy material as C", QKeySequence("Ctrl+Shift+C"),
                "Copy the material as the structs of nacre.h, for an engine's source", &MainWindow::copyStructs},
         Action{"file.savePicture", "Save &picture…", QKeySequence("Ctrl+P"), "Write the picture to a PNG or EXR file",
@@ -182,73 +183,9 @@ void MainWindow::makeMenus() {
 void MainWindow::makeStatusBar() {
     pictureStatus_ = new QLabel;
     pictureStatus_->setObjectName("status.picture");
-    deviceStatus_ = new QLabel(QString::fromStdString(device_.description().name));
-    deviceStatus_->setObjectName("status.device");
-    statusBar()->addPermanentWidget(pictureStatus_);
-    statusBar()->addPermanentWidget(deviceStatus_);
-}
-
-void MainWindow::fillRecent() {
-    recent_->clear();
-    const QStringList files = QSettings().value("recent").toStringList();
-    for (const QString& file : files) {
-        recent_->addAction(QString(file).replace('&', "&&"), this, [this, file] { openFile(file); });
-    }
-    recent_->setEnabled(!files.isEmpty());
-}
-
-void MainWindow::rememberRecent(const QString& file) {
-    const QString whole = QFileInfo(file).absoluteFilePath();
-    QSettings settings;
-    QStringList files = settings.value("recent").toStringList();
-    files.removeAll(whole);
-    files.prepend(whole);
-    settings.setValue("recent", QStringList(files.mid(0, mostRecent)));
-    fillRecent();
-}
-
-void MainWindow::chooseFile() {
-    const QString folder = QString::fromStdString(document_.file().parent_path().string());
-    const QString file = QFileDialog::getOpenFileName(this, "Open a scene or a model", folder, openFilter);
-    if (!file.isEmpty()) {
-        openFile(file);
-    }
-}
-
-void MainWindow::openGallery() {
-    openFile({});
-}
-
-void MainWindow::reload() {
-    const scene::Camera camera = picture_->camera();
-    if (openFile(QString::fromStdString(document_.file().string()))) {
-        picture_->setCamera(camera);
-        statusBar()->showMessage("Read again: " + document_.name(), 5000);
-    }
-}
-
-void MainWindow::savePicture() {
-    const QString file = QFileDialog::getSaveFileName(this, "Save the picture", "nacre.png", "Pictures (*.png *.exr)");
-    if (file.isEmpty() || !loop_) {
-        return;
-    }
-    try {
-        const renderer::SidePicture picture = loop_->read(0);
-        writeImage(file.toStdString(), file.endsWith(".exr") ? picture.light : picture.shown);
-        statusBar()->showMessage("Saved " + file, 5000);
-    } catch (const std::exception& error) {
-        complain(QString::fromUtf8(error.what()));
-    }
-}
-
-void MainWindow::saveMaterial() {
-    material_->askAndSave();
-}
-
-void MainWindow::copyStructs() {
-    QApplication::clipboard()->setText(
-        QString::fromStdString(structsOf(document_.edited().materials[document_.material()].drawn())));
-    statusBar()->showMessage("The material is on the clipboard as C", 5000);
+    pictureStatus_->setToolTip("Drawn by " + QString::fromStdString(device_.description().name));
+    // A sentence takes the whole bar for a while.
+    statusBar()->addWidget(pictureStatus_, 1);
 }
 
 void MainWindow::resetCamera() {
@@ -262,7 +199,7 @@ void MainWindow::cycleCompare() {
 void MainWindow::reloadShaders() {
     try {
         loop_->reloadShaders();
-        statusBar()->showMessage("The shaders are as their files are now", 5000);
+        note("The shaders are as their files are now");
         picture_->wake();
     } catch (const std::exception& error) {
         complain(QString::fromUtf8(error.what()));
@@ -272,7 +209,7 @@ void MainWindow::reloadShaders() {
 void MainWindow::setDark(bool dark) {
     QSettings().setValue("dark", dark);
     QApplication::setStyle(QStyleFactory::create("Fusion"));
-    QApplication::setPalette(dark ? darkPalette() : QStyleFactory::create("Fusion")->standardPalette());
+    QApplication::setPalette(paletteOf(dark ? darkColors : lightColors));
 }
 
 void MainWindow::showShortcuts() {

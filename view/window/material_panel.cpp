@@ -1,9 +1,12 @@
 #include "view/window/material_panel.hpp"
 
 #include "nacre/files.hpp"
-#include "nacre/layering.hpp"
 #include "nacre/presets.hpp"
-#include "view/window/mixing_dialog.hpp"
+#include "view/model/material_structs.hpp"
+#include "view/model/recipes.hpp"
+#include "view/window/recipe_dialog.hpp"
+#include "view/window/shown_image.hpp"
+#include "view/window/slab_dialog.hpp"
 
 #include <QColorDialog>
 #include <QFileDialog>
@@ -18,6 +21,7 @@ namespace nacre::view {
 namespace {
 
 constexpr const char* materialFilter = "Materials (*.json);;All files (*)";
+constexpr const char* saveFilter = "Material file (*.json);;C structs of nacre.h (*.h)";
 constexpr const char* noPreset = "Choose a preset …";
 
 QGroupBox* group(const QString& title, QLayout* layout) {
@@ -49,13 +53,14 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
       color_(new QPushButton),
       albedoUse_(new QComboBox),
       radius_(new QLabel),
+      swatch_(new QLabel),
       plots_{new ProfilePlot(PlotKind::Profile), new ProfilePlot(PlotKind::EdgeResponse),
              new ProfilePlot(PlotKind::Slab)} {
     auto* layout = new QVBoxLayout(this);
     makeSource();
     auto* source = new QFormLayout;
-    source->addRow("Material", materials_);
-    source->addRow("Preset", presets_);
+    source->addRow("&Material", materials_);
+    source->addRow("&Preset", presets_);
     source->addRow(source_);
     auto* make = new QHBoxLayout;
     const auto addMaker = [&](const QString& name, const QString& text, const QString& toolTip, auto run) {
@@ -65,18 +70,28 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
         connect(button, &QPushButton::clicked, this, run);
         make->addWidget(button);
     };
-    addMaker("material.skin", "Skin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
-    addMaker("material.meanFreePath", "Mean free path …", "Layers of a medium by its colour and mean free path",
+    addMaker("material.skin", "S&kin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
+    addMaker("material.meanFreePath", "Mean &free path …", "Layers of a medium by its colour and mean free path",
              &MaterialPanel::makeMeanFreePath);
-    addMaker("material.load", "Load …", "Read a material file", [this] {
+    addMaker("material.slabs", "Sla&bs …", "Layers of a stack of physical slabs", &MaterialPanel::editSlabs);
+    source->addRow(make);
+    make = new QHBoxLayout;
+    addMaker("material.load", "&Load …", "Read a material file", [this] {
         const QString file = QFileDialog::getOpenFileName(this, "Load a material", {}, materialFilter);
         if (!file.isEmpty()) {
             load(file);
         }
     });
-    addMaker("material.save", "Save …", "Write this material to a file", [this] { askAndSave(); });
+    addMaker("material.save", "&Save …", "Write this material to a file", [this] { askAndSave(); });
     source->addRow(make);
     layout->addLayout(source);
+    swatch_->setObjectName("material.swatch");
+    swatch_->setAccessibleName("Swatch");
+    swatch_->setToolTip(
+        "This material as large as it is, drawn by the same frame: the edge of a shadow, a wedge of 0 to "
+        "12 mm lit from behind, a ball of 20 mm");
+    swatch_->setFixedHeight(physicalDpiY()); // an inch, which a swatch nearly is
+    layout->addWidget(swatch_);
 
     auto* layers = new QVBoxLayout;
     layers->addWidget(layers_);
@@ -85,8 +100,8 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     auto* use = new QVBoxLayout;
     use->addWidget(parameters_);
     auto* form = new QFormLayout;
-    form->addRow("Albedo", color_);
-    form->addRow("Albedo use", albedoUse_);
+    form->addRow("Albe&do", color_);
+    form->addRow("Albedo &use", albedoUse_);
     form->addRow("Radius", radius_);
     use->addLayout(form);
     layout->addWidget(group("Use", use));
@@ -157,6 +172,16 @@ void MaterialPanel::setScale(double pixelsPerMillimeter) {
     refresh();
 }
 
+bool MaterialPanel::isSwatchSeen() const {
+    return !swatch_->visibleRegion().isEmpty();
+}
+
+void MaterialPanel::showSwatch(const Image& swatch) {
+    QPixmap pixmap = QPixmap::fromImage(toQImage(swatch));
+    pixmap.setDevicePixelRatio(devicePixelRatioF());
+    swatch_->setPixmap(pixmap);
+}
+
 void MaterialPanel::refresh() {
     if (document_.edited().materials.empty()) {
         return;
@@ -195,13 +220,13 @@ void MaterialPanel::refresh() {
     }
 }
 
-void MaterialPanel::makeFrom(const QString& text, const std::function<Material()>& make) {
+void MaterialPanel::makeFrom(const QString& text, const std::function<Material()>& make, const QString& key) {
     try {
         const Material made = make();
         if (const std::string fault = findFault(made); !fault.empty()) {
             throw std::runtime_error(fault);
         }
-        document_.edit(text, {}, [&](EditedScene& scene) { replaceMaterial(scene, document_.material(), made); });
+        document_.edit(text, key, [&](EditedScene& scene) { replaceMaterial(scene, document_.material(), made); });
     } catch (const std::exception& error) {
         Q_EMIT failed(QString::fromUtf8(error.what()));
     }
@@ -220,7 +245,7 @@ void MaterialPanel::load(const QString& file) {
 
 void MaterialPanel::askAndSave() {
     const QString name = QString::fromStdString(material().name) + ".json";
-    const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, materialFilter);
+    const QString file = QFileDialog::getSaveFileName(this, "Save the material", name, saveFilter);
     if (!file.isEmpty()) {
         save(file);
     }
@@ -228,8 +253,14 @@ void MaterialPanel::askAndSave() {
 
 void MaterialPanel::save(const QString& file) {
     try {
-        saveMaterial(document_.edited().materials[document_.material()].drawn(), file.toStdString());
-        document_.history().setClean();
+        const Material drawn = document_.edited().materials[document_.material()].drawn();
+        if (file.endsWith(".h") || file.endsWith(".c")) {
+            const std::string text = structsOf(drawn);
+            writeFileAtomically(file.toStdString(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+            return;
+        }
+        saveMaterial(drawn, file.toStdString());
+        document_.materialSaved();
     } catch (const std::exception& error) {
         Q_EMIT failed(QString::fromUtf8(error.what()));
     }
@@ -246,15 +277,38 @@ void MaterialPanel::chooseColor() {
 }
 
 void MaterialPanel::makeSkin() {
-    if (const std::optional<SkinRecipe> recipe = askForSkin(this)) {
-        makeFrom("skin", [&] { return mixSkin(*recipe); });
-    }
+    openRecipe<SkinRecipe>(
+        window(), "Skin by melanin and blood", skinParameters(), {},
+        [this](const SkinRecipe& recipe) {
+            makeFrom(
+                "skin", [&] { return mixSkin(recipe); }, "recipe.skin");
+        },
+        [this] { document_.endEdit(); });
 }
 
 void MaterialPanel::makeMeanFreePath() {
-    if (const std::optional<MediumRecipe> recipe = askForMedium(this)) {
-        makeFrom("mean free path", [&] { return mixMedium(*recipe); });
-    }
+    openRecipe<MediumRecipe>(
+        window(), "Medium by mean free path, as OpenPBR has it", mediumParameters(), {},
+        [this](const MediumRecipe& recipe) {
+            makeFrom(
+                "mean free path", [&] { return mixMedium(recipe); }, "recipe.medium");
+        },
+        [this] { document_.endEdit(); });
+}
+
+/// Slabs of a material that has none begin as those of skin, and replace its layers with the first change.
+void MaterialPanel::editSlabs() {
+    const std::vector<Slab> slabs = material().slabs.empty() ? skinSlabs({}) : material().slabs;
+    auto* dialog = new SlabDialog(
+        slabs,
+        [this](const std::vector<Slab>& changed) {
+            Material base = material();
+            base.description = "Made of slabs: " + std::to_string(changed.size());
+            makeFrom(
+                "slabs", [&] { return mixSlabs(base, changed); }, "slabs");
+        },
+        window());
+    dialog->show();
 }
 
 } // namespace nacre::view

@@ -21,10 +21,14 @@ public:
 
     /// Where the plots look at the bank's mixture; the radius is also told in pixels of this scale.
     void setScale(double pixelsPerMillimeter);
-    /// Loads or saves the material that is shown; `failed` says what goes wrong.
+    /// Loads or saves the material that is shown; `failed` says what goes wrong. A file .h or .c gets C structs.
     void load(const QString& file);
     void save(const QString& file);
     void askAndSave();
+
+    /// Whether a swatch of the material would be seen; and one.
+    bool isSwatchSeen() const;
+    void showSwatch(const Image& swatch);
 
 Q_SIGNALS:
     void failed(QString sentence);
@@ -34,10 +38,11 @@ private:
     void makeColor();
     void refresh();
     void choosePreset(int row);
-    void makeFrom(const QString& text, const std::function<Material()>& make);
+    void makeFrom(const QString& text, const std::function<Material()>& make, const QString& key = {});
     void chooseColor();
     void makeSkin();
     void makeMeanFreePath();
+    void editSlabs();
     const Material& material() const;
 
     Document& document_;
@@ -50,6 +55,7 @@ private:
     QPushButton* color_;
     QComboBox* albedoUse_;
     QLabel* radius_;
+    QLabel* swatch_;
     std::array<ProfilePlot*, 3> plots_;
     double pixelsPerMillimeter_ = 4;
 };

@@ -20,6 +20,7 @@ constexpr int stillMilliseconds = 200;  ///< without a movement, until the pictu
 constexpr int resizeMilliseconds = 300; ///< of one size, until the picture gets it
 constexpr double clickPixels = 4;       ///< a press that moved less is a click
 constexpr double dividerPixels = 8;     ///< from here the divider is taken hold of
+constexpr double handlePixels = 12;     ///< likewise a light
 constexpr float zoomPerStep = 0.9f;     ///< of the distance, for one step of the wheel
 constexpr float flyRadii = 0.5f;        ///< scene radii in a second
 
@@ -65,6 +66,11 @@ PictureWindow::~PictureWindow() {
 template <typename Action> void PictureWindow::guarded(const Action& action) {
     try {
         action();
+    } catch (const renderer::DeviceLost& error) {
+        timer_.stop();
+        loop_ = nullptr;
+        hasSurface_ = false;
+        Q_EMIT lost(QString::fromUtf8(error.what()));
     } catch (const std::exception& error) {
         timer_.stop();
         Q_EMIT failed(QString::fromUtf8(error.what()));
@@ -182,16 +188,50 @@ void PictureWindow::resizePicture() {
     }
 }
 
-std::optional<QPointF> PictureWindow::placeOf(const QPointF& position) const {
+QPointF PictureWindow::placeOf(const QPointF& position) const {
     if (loop_ == nullptr) {
-        return std::nullopt;
+        return {-1, -1};
     }
     const double zoom = std::min(width() / double(loop_->extent().width), height() / double(loop_->extent().height));
     const QPointF shown(loop_->extent().width * zoom, loop_->extent().height * zoom);
-    const QPointF place((position.x() - 0.5 * (width() - shown.x())) / shown.x(),
-                        (position.y() - 0.5 * (height() - shown.y())) / shown.y());
-    const bool inside = place.x() >= 0 && place.x() < 1 && place.y() >= 0 && place.y() < 1;
-    return inside ? std::optional(place) : std::nullopt;
+    return {(position.x() - 0.5 * (width() - shown.x())) / shown.x(),
+            (position.y() - 0.5 * (height() - shown.y())) / shown.y()};
+}
+
+std::optional<LightHandle> PictureWindow::handleAt(const QPointF& position) const {
+    if (loop_ == nullptr) {
+        return std::nullopt;
+    }
+    const QPointF place = placeOf(position);
+    const QPointF perPixel = placeOf(position + QPointF(1, 1)) - place;
+    std::optional<LightHandle> nearest;
+    double least = handlePixels;
+    for (const LightHandle& handle : handles_) {
+        const double distance =
+            std::hypot((handle.place.x - place.x()) / perPixel.x(), (handle.place.y - place.y()) / perPixel.y());
+        if (distance < least) {
+            least = distance;
+            nearest = handle;
+        }
+    }
+    return nearest;
+}
+
+/// Out of its sphere and in again brings a directional light to the other side.
+void PictureWindow::dragLight(const QMouseEvent& event, const QPointF& step) {
+    if (event.modifiers() & Qt::ControlModifier) {
+        Q_EMIT lightPushed(held_->light, static_cast<float>(std::exp(-2 * step.y() / std::max(1, height()))));
+    } else {
+        Q_EMIT lightDragged(held_->light, placeOf(event.position()), bool(event.modifiers() & Qt::ShiftModifier),
+                            held_->behind);
+    }
+}
+
+void PictureWindow::leftSphere(bool outside) {
+    if (held_ && heldOutside_ && !outside) {
+        held_->behind = !held_->behind;
+    }
+    heldOutside_ = outside;
 }
 
 bool PictureWindow::event(QEvent* event) {
@@ -242,9 +282,14 @@ void PictureWindow::resizeEvent(QResizeEvent*) {
 void PictureWindow::mousePressEvent(QMouseEvent* event) {
     pressed_ = last_ = event->position();
     dragged_ = false;
-    const std::optional<QPointF> place = placeOf(event->position());
-    draggingDivider_ = comparing_ && place && event->button() == Qt::LeftButton &&
-                       std::abs(place->x() - divider_) * width() < dividerPixels;
+    draggingDivider_ = comparing_ && event->button() == Qt::LeftButton &&
+                       std::abs(placeOf(event->position()).x() - divider_) * width() < dividerPixels;
+    held_ = event->button() == Qt::LeftButton ? handleAt(event->position()) : std::nullopt;
+    heldOutside_ = false;
+    if (held_) {
+        draggingDivider_ = false;
+        Q_EMIT lightHeld(held_->light);
+    }
 }
 
 void PictureWindow::mouseMoveEvent(QMouseEvent* event) {
@@ -255,6 +300,10 @@ void PictureWindow::mouseMoveEvent(QMouseEvent* event) {
     last_ = event->position();
     dragged_ = dragged_ || (last_ - pressed_).manhattanLength() > clickPixels;
     if (!dragged_) {
+        return;
+    }
+    if (held_) {
+        dragLight(*event, step);
         return;
     }
     if (draggingDivider_) {
@@ -277,10 +326,14 @@ void PictureWindow::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void PictureWindow::mouseReleaseEvent(QMouseEvent* event) {
-    if (const std::optional<QPointF> place = placeOf(event->position());
-        !dragged_ && place && event->button() == Qt::LeftButton) {
-        Q_EMIT clicked(*place);
+    const QPointF place = placeOf(event->position());
+    const bool inside = place.x() >= 0 && place.x() < 1 && place.y() >= 0 && place.y() < 1;
+    if (held_) {
+        Q_EMIT lightDropped();
+    } else if (!dragged_ && inside && event->button() == Qt::LeftButton) {
+        Q_EMIT clicked(place);
     }
+    held_.reset();
     draggingDivider_ = false;
 }
 

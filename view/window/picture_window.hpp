@@ -2,6 +2,7 @@
 #pragma once
 
 #include "view/loop/picture_loop.hpp"
+#include "view/model/light_handles.hpp"
 
 #include <QElapsedTimer>
 #include <QTimer>
@@ -33,6 +34,10 @@ public:
     float divider() const { return divider_; }
     void setComparing(bool comparing) { comparing_ = comparing; }
     bool isComparing() const { return comparing_; }
+    /// Lights that the mouse can take hold of.
+    void setHandles(std::vector<LightHandle> handles) { handles_ = std::move(handles); }
+    /// Whether a directional light that is dragged has no place under the mouse. Coming back, it is on the other side.
+    void leftSphere(bool outside);
     /// The picture's size for the window's.
     QSize pictureSize() const;
 
@@ -41,8 +46,15 @@ Q_SIGNALS:
     /// A body was clicked: a place in the picture, [0, 1], right and down.
     void clicked(QPointF place);
     void dividerMoved(float divider);
+    /// A light was taken hold of, dragged to a place of the picture or pushed away (factor > 1), and let go.
+    void lightHeld(std::size_t light);
+    void lightDragged(std::size_t light, QPointF place, bool aim, bool behind);
+    void lightPushed(std::size_t light, float factor);
+    void lightDropped();
     void stepped();
     void failed(QString sentence);
+    /// The device is gone, and the loop with it.
+    void lost(QString sentence);
     void dropped(QString file);
     void keyed(QKeyEvent* event);
 
@@ -62,7 +74,10 @@ private:
     void tick();
     void flyOn();
     void resizePicture();
-    std::optional<QPointF> placeOf(const QPointF& position) const;
+    /// Where in the picture, [0, 1] inside of it.
+    QPointF placeOf(const QPointF& position) const;
+    std::optional<LightHandle> handleAt(const QPointF& position) const;
+    void dragLight(const QMouseEvent& event, const QPointF& step);
     void applyCamera();
     template <typename Action> void guarded(const Action& action);
 
@@ -79,6 +94,9 @@ private:
     QPointF last_;
     bool dragged_ = false;
     bool draggingDivider_ = false;
+    std::vector<LightHandle> handles_;
+    std::optional<LightHandle> held_; ///< what is being dragged
+    bool heldOutside_ = false;        ///< the mouse has left the sphere of a directional light
     bool comparing_ = false;
     float divider_ = 0.5f;
     bool hasSurface_ = false;

@@ -1,16 +1,17 @@
 #include "view/window/recovery.hpp"
 
 #include "nacre/files.hpp"
+#include "view/model/edited_file.hpp"
 
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
-#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QStandardPaths>
 
 #include <csignal>
+#include <vector>
 
 namespace nacre::view {
 namespace {
@@ -36,13 +37,16 @@ std::optional<Recovered> read(const QString& path) {
     if (isRunning(object["process"].toInteger())) {
         return std::nullopt;
     }
-    file.remove();
-    Recovered result{object["scene"].toString(), {}};
-    for (const auto& text : object["materials"].toArray()) {
-        try {
-            result.materials.push_back(parseMaterial(text.toString().toStdString(), path.toStdString()));
-        } catch (const FileError&) {
-            return std::nullopt;
+    return Recovered{path, object["scene"].toString(), object["edits"].toString()};
+}
+
+/// What programs that no longer run have left, the last one at the end.
+std::vector<Recovered> left() {
+    std::vector<Recovered> result;
+    const QDir place = folder();
+    for (const QString& name : place.entryList({pattern}, QDir::Files, QDir::Time | QDir::Reversed)) {
+        if (std::optional<Recovered> found = read(place.filePath(name))) {
+            result.push_back(std::move(*found));
         }
     }
     return result;
@@ -53,12 +57,9 @@ std::optional<Recovered> read(const QString& path) {
 Recovery::Recovery() : file_(folder().filePath(QString("recovery-%1.json").arg(QCoreApplication::applicationPid()))) {}
 
 void Recovery::save(const QString& scene, const EditedScene& edited) {
-    QJsonArray materials;
-    for (const EditedMaterial& material : edited.materials) {
-        materials.append(QString::fromStdString(formatMaterial(material.drawn())));
-    }
-    const QJsonObject object{
-        {"process", QCoreApplication::applicationPid()}, {"scene", scene}, {"materials", materials}};
+    const QJsonObject object{{"process", QCoreApplication::applicationPid()},
+                             {"scene", scene},
+                             {"edits", QString::fromStdString(formatEdited(edited))}};
     const QByteArray text = QJsonDocument(object).toJson();
     writeFileAtomically(file_.toStdString(),
                         {reinterpret_cast<const std::uint8_t*>(text.constData()), std::size_t(text.size())});
@@ -68,15 +69,18 @@ void Recovery::remove() {
     QFile::remove(file_);
 }
 
-std::optional<Recovered> Recovery::take() {
+std::optional<Recovered> Recovery::find() {
     std::optional<Recovered> result;
-    const QDir place = folder();
-    for (const QString& name : place.entryList({pattern}, QDir::Files, QDir::Time | QDir::Reversed)) {
-        if (std::optional<Recovered> found = read(place.filePath(name))) {
-            result = std::move(found);
-        }
+    for (Recovered& found : left()) {
+        result = std::move(found);
     }
     return result;
+}
+
+void Recovery::forget() {
+    for (const Recovered& found : left()) {
+        QFile::remove(found.file);
+    }
 }
 
 } // namespace nacre::view

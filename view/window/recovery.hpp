@@ -6,14 +6,14 @@
 #include <QString>
 
 #include <optional>
-#include <vector>
 
 namespace nacre::view {
 
 /// What was being edited when the program ended without closing.
 struct Recovered {
+    QString file;  ///< where it was kept
     QString scene; ///< the scene's file; empty: the gallery
-    std::vector<Material> materials;
+    QString edits; ///< formatEdited
 };
 
 /// A file in the user's data folder, one a running program.
@@ -26,8 +26,10 @@ public:
     /// Nothing would be lost any more.
     void remove();
 
-    /// What programs that no longer run have left, the last one; forgets it and the others.
-    static std::optional<Recovered> take();
+    /// What programs that no longer run have left, the last one.
+    static std::optional<Recovered> find();
+    /// Removes all that they have left.
+    static void forget();
 
 private:
     QString file_;

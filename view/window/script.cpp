@@ -1,10 +1,10 @@
 #include "view/window/script.hpp"
 
-#include "image/image_file.hpp"
 #include "nacre/files.hpp"
 #include "view/window/main_window.hpp"
 #include "view/window/material_panel.hpp"
 #include "view/window/parameter_slider.hpp"
+#include "view/window/shown_image.hpp"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -13,6 +13,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QLabel>
 #include <QListWidget>
 #include <QPainter>
 #include <QTest>
@@ -120,8 +121,10 @@ void press(MainWindow& window, const QJsonObject& step) {
 
 void openFile(MainWindow& window, const QJsonObject& step) {
     const QString file = textOf(step["open"], "open");
-    if (!window.openFile(file == "gallery" ? QString() : file)) {
-        refuse("it went wrong: " + window.lastFault());
+    if (file == "gallery") {
+        window.openFile({});
+    } else {
+        window.openAny(file);
     }
 }
 
@@ -132,7 +135,7 @@ void showPanel(MainWindow& window, const QJsonObject& step) {
     QApplication::processEvents();
 }
 
-/// {"drag": [X, Y], "to": [X, Y]} in the picture, shares of it.
+/// {"drag": [X, Y], "to": [X, Y], "with": "Shift" or "Ctrl"} in the picture, shares of it.
 void drag(MainWindow& window, const QJsonObject& step) {
     const auto at = [&](const char* key) {
         const std::array<double, 2> place = pairOf(step[key], key);
@@ -141,16 +144,20 @@ void drag(MainWindow& window, const QJsonObject& step) {
     };
     const QPoint from = at("drag");
     const QPoint to = at("to");
-    QTest::mousePress(&window.picture(), Qt::LeftButton, Qt::NoModifier, from);
+    const QString with = step["with"].toString();
+    const Qt::KeyboardModifiers keys = with == "Shift"  ? Qt::ShiftModifier
+                                       : with == "Ctrl" ? Qt::ControlModifier
+                                                        : Qt::NoModifier;
+    QTest::mousePress(&window.picture(), Qt::LeftButton, keys, from);
     constexpr int moves = 8;
     for (int i = 1; i <= moves; ++i) {
         const QPoint place = from + (to - from) * i / moves;
         QMouseEvent event(QEvent::MouseMove, place, window.picture().mapToGlobal(place), Qt::NoButton, Qt::LeftButton,
-                          Qt::NoModifier);
+                          keys);
         QApplication::sendEvent(&window.picture(), &event);
         QApplication::processEvents();
     }
-    QTest::mouseRelease(&window.picture(), Qt::LeftButton, Qt::NoModifier, to);
+    QTest::mouseRelease(&window.picture(), Qt::LeftButton, keys, to);
 }
 
 void pick(MainWindow& window, const QJsonObject& step) {
@@ -171,9 +178,36 @@ void waitStill(MainWindow& window, const QJsonObject&) {
 }
 
 void savePicture(MainWindow& window, const QJsonObject& step) {
-    const renderer::SidePicture picture = window.loop()->read(0);
-    const QString file = textOf(step["picture"], "picture");
-    writeImage(file.toStdString(), file.endsWith(".exr") ? picture.light : picture.shown);
+    window.writePicture(textOf(step["picture"], "picture"));
+}
+
+void saveScene(MainWindow& window, const QJsonObject& step) {
+    window.writeScene(textOf(step["saveScene"], "saveScene"));
+}
+
+void pause(MainWindow&, const QJsonObject& step) {
+    if (!step["pause"].isDouble()) {
+        refuse("'pause' must be a number of milliseconds");
+    }
+    QTest::qWait(step["pause"].toInt());
+}
+
+/// {"expect": NAME, "text": PART}: that a label has this in its text.
+void expect(MainWindow& window, const QJsonObject& step) {
+    const QString shown = find<QLabel>(window, textOf(step["expect"], "expect")).text();
+    const QString part = textOf(step["text"], "text");
+    if (!shown.contains(part)) {
+        refuse("'" + step["expect"].toString() + "' says '" + shown + "', and not '" + part + "'");
+    }
+}
+
+void recover(MainWindow& window, const QJsonObject&) {
+    window.offerRecovered();
+}
+
+void hide(MainWindow& window, const QJsonObject& step) {
+    window.setVisible(!step["hide"].toBool());
+    QApplication::processEvents();
 }
 
 void saveMaterial(MainWindow& window, const QJsonObject& step) {
@@ -184,40 +218,18 @@ void loadMaterialFile(MainWindow& window, const QJsonObject& step) {
     window.materialPanel().load(textOf(step["loadMaterial"], "loadMaterial"));
 }
 
-QImage toImage(const Image& linear) {
-    const Image encoded = toEncoding(linear, Encoding::Srgb);
-    QImage result(static_cast<int>(linear.width), static_cast<int>(linear.height), QImage::Format_RGB32);
-    for (int y = 0; y < result.height(); ++y) {
-        for (int x = 0; x < result.width(); ++x) {
-            const std::span<const float> pixel =
-                encoded.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-            const auto byte = [&](std::size_t channel) { return static_cast<int>(255 * pixel[channel] + 0.5f); };
-            result.setPixel(x, y, qRgb(byte(0), byte(1), byte(2)));
-        }
-    }
-    return result;
-}
-
 /// {"screenshot": FILE.png}: the window with its picture, which Qt does not see.
 void takeScreenshot(MainWindow& window, const QJsonObject& step) {
-    QPixmap shot = window.grab();
-    {
-        QPainter painter(&shot);
-        const QRect area(window.centralWidget()->pos(), window.centralWidget()->size());
-        painter.drawImage(area, toImage(window.loop()->read(0).shown));
-        if (window.picture().isComparing()) {
-            const renderer::SidePicture second = window.loop()->read(1);
-            const QImage image = toImage(second.shown);
-            const double divider = window.picture().divider();
-            const QRectF from(image.width() * divider, 0, image.width() * (1 - divider), image.height());
-            painter.drawImage(
-                QRectF(area.left() + area.width() * divider, area.top(), area.width() * (1 - divider), area.height()),
-                image, from);
-            painter.setPen(QPen(Qt::white, 2));
-            const int x = area.left() + static_cast<int>(area.width() * divider);
-            painter.drawLine(x, area.top(), x, area.bottom());
-        }
+    if (window.loop() == nullptr) {
+        refuse("there is no picture");
     }
+    window.finishSwatch();
+    QPixmap shot = window.grab();
+    const QRect area(window.centralWidget()->pos(), window.centralWidget()->size());
+    QPainter painter(&shot);
+    painter.drawImage(area, toQImage(window.loop()->readWindow(static_cast<std::uint32_t>(area.width()),
+                                                               static_cast<std::uint32_t>(area.height()))));
+    painter.end();
     const QString file = textOf(step["screenshot"], "screenshot");
     if (!shot.save(file)) {
         refuse("'" + file + "' cannot be written");
@@ -243,6 +255,11 @@ constexpr std::array kinds{StepKind{"set", set},
                            StepKind{"wait", waitStill},
                            StepKind{"saveMaterial", saveMaterial},
                            StepKind{"loadMaterial", loadMaterialFile},
+                           StepKind{"saveScene", saveScene},
+                           StepKind{"recover", recover},
+                           StepKind{"expect", expect},
+                           StepKind{"pause", pause},
+                           StepKind{"hide", hide},
                            StepKind{"picture", savePicture},
                            StepKind{"screenshot", takeScreenshot}};
 

@@ -11,6 +11,7 @@ namespace nacre::view {
 namespace {
 
 constexpr std::size_t mostFrames = 240;
+constexpr int tableMilliseconds = 500; // that a table can be read
 constexpr double mebibyte = 1024.0 * 1024.0;
 
 struct PartRow {
@@ -96,12 +97,15 @@ void TimingGraph::paintEvent(QPaintEvent*) {
     }
 }
 
-TimingPanel::TimingPanel(QWidget* parent) : QWidget(parent), graph_(new TimingGraph), text_(new QLabel) {
+TimingPanel::TimingPanel(QWidget* parent)
+    : QWidget(parent), graph_(new TimingGraph), text_(new QLabel), tables_(new QLabel) {
     text_->setObjectName("timing.text");
     text_->setWordWrap(true);
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(graph_);
     layout->addWidget(text_);
+    tables_->setObjectName("timing.tables");
+    layout->addWidget(tables_);
     layout->addStretch();
 }
 
@@ -118,6 +122,24 @@ void TimingPanel::add(const renderer::FrameReport& report, double processorMilli
             .arg(double(bytes) / mebibyte, 0, 'f', 0)
             .arg(double(report.effectBytes) / mebibyte, 0, 'f', 1)
             .arg(100 * report.subsurfaceCoverage, 0, 'f', 0));
+    if (!isVisible() || (tablesAge_.isValid() && !tablesAge_.hasExpired(tableMilliseconds))) {
+        return;
+    }
+    tablesAge_.start();
+    QString rows;
+    const auto row = [&rows](const std::string& name, const QString& value) {
+        rows += QString("<tr><td>%1&nbsp;&nbsp;</td><td align=right>%2</td></tr>")
+                    .arg(QString::fromStdString(name).toHtmlEscaped(), value);
+    };
+    rows += "<tr><th align=left>pass</th><th align=right>ms</th></tr>";
+    for (const renderer::PassTime& pass : report.passes) {
+        row(pass.name, QString::number(pass.microseconds / 1e3, 'f', 3));
+    }
+    rows += "<tr><th align=left>memory</th><th align=right>MiB</th></tr>";
+    for (const renderer::MemoryUse& use : report.memory) {
+        row(use.name, QString::number(double(use.bytes) / mebibyte, 'f', 1));
+    }
+    tables_->setText("<table>" + rows + "</table>");
 }
 
 } // namespace nacre::view

@@ -3,6 +3,7 @@
 
 #include "renderer/frame_report.hpp"
 
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QWidget>
 
@@ -42,6 +43,8 @@ public:
 private:
     TimingGraph* graph_;
     QLabel* text_;
+    QLabel* tables_; ///< every pass of a frame, and what its memory is for
+    QElapsedTimer tablesAge_;
 };
 
 } // namespace nacre::view

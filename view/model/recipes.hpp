@@ -2,10 +2,7 @@
 #pragma once
 
 #include "nacre/material.hpp"
-
-#include <QWidget>
-
-#include <optional>
+#include "view/model/edit_parameters.hpp"
 
 namespace nacre::view {
 
@@ -17,9 +14,9 @@ struct SkinRecipe {
     double oxygenation = 0.75; ///< [0, 1]
     double epidermis = 0.1;    ///< [mm] thickness
 };
+std::vector<Slab> skinSlabs(const SkinRecipe& recipe);
 Material mixSkin(const SkinRecipe& recipe);
-/// Asks in a dialogue; nothing where it is dismissed.
-std::optional<SkinRecipe> askForSkin(QWidget* parent);
+std::span<const Parameter<SkinRecipe>> skinParameters();
 
 /// A medium as OpenPBR tells it: colour, mean free path and its scale per channel, anisotropy.
 struct MediumRecipe {
@@ -33,6 +30,13 @@ struct MediumRecipe {
     double anisotropy = 0; ///< [-1, 1]
 };
 Material mixMedium(const MediumRecipe& recipe);
-std::optional<MediumRecipe> askForMedium(QWidget* parent);
+std::span<const Parameter<MediumRecipe>> mediumParameters();
+
+/// The numbers of a slab. What is set of its melanin, blood and the like makes it a slab of skin; what is set of its
+/// coefficients makes it a slab of any medium.
+std::span<const Parameter<Slab>> slabParameters();
+
+/// `material` with its profile, albedo and specular by these slabs. Throws std::invalid_argument naming the field.
+Material mixSlabs(Material material, std::vector<Slab> slabs);
 
 } // namespace nacre::view
