@@ -164,7 +164,7 @@ TEST_F(BenchTest, EffectTimesEverySceneBesideACopy) {
     const auto effect = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"bench", "effect"});
         arguments.insert(arguments.end(), tiny.begin(), tiny.end());
-        return run(arguments, {{"GALLIVM_PERF", "nopt"}}); // a software device compiles sooner so
+        return run(arguments);
     };
     const Outcome scenes = effect({"--suite", "scenes", "--skip-unscattered", "both"});
     ASSERT_EQ(scenes.exitCode, 0) << scenes.error;

@@ -41,8 +41,8 @@ constexpr double leastOfSeparable = 38;
 void expectQuality(const scene::Scene& scene, const scene::Camera& camera, const std::string& name,
                    double leastOfBank = 45) {
     renderer::RenderSettings settings;
-    settings.width = 320;
-    settings.height = 180;
+    settings.width = 256;
+    settings.height = 144;
     settings.shadowMapSize = 512;
     settings.transmit = false;
     settings.technique = NACRE_TECHNIQUE_BRUTE;
