@@ -84,7 +84,7 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     swatch_->setObjectName("material.swatch");
     swatch_->setAccessibleName("Swatch");
     swatch_->setToolTip(
-        "This material as large as it is, drawn by the same frame: the edge of a shadow, a wedge of 0 to "
+        "This material as large as it is, drawn by the same frame: the edge of a shadow, a wedge of 0.2 to "
         "12 mm lit from behind, a ball of 20 mm");
     swatch_->setFixedHeight(physicalDpiY()); // an inch, which a swatch nearly is
     layout->addWidget(swatch_);
