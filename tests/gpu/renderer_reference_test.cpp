@@ -40,6 +40,16 @@ void place(scene::Scene& scene, scene::Mesh mesh, std::uint32_t surface) {
     scene.meshes.push_back(std::move(mesh));
 }
 
+/// Light at 45 degrees, and a camera that sees 26 mm from top to bottom.
+void lightAsideAndLookDown(scene::Scene& scene) {
+    scene.lights = {directional(glm::normalize(glm::vec3(1, -1, 0)), 3)};
+    scene::Camera& camera = scene.cameras[0];
+    camera.position = {0, 100, 0};
+    camera.up = {0, 0, -1};
+    camera.projection = scene::ProjectionKind::Orthographic;
+    camera.orthographicHeight = 26;
+}
+
 struct Brute {
     Pixels radiance;
     Pixels irradiance;
@@ -104,12 +114,7 @@ TEST_F(Reference, BruteIsTheSurfaceIntegralOnAPlaneWithShadowEdges) {
     place(scene, scene::rectangle({-60, -45}, {60, 45}, 0), 0);
     // At 45 degrees the shadow of what hangs 30 mm high lies 30 mm further to the right, and its edge in the picture.
     place(scene, scene::rectangle({-90, -60}, {-32, 60}, 30), 1);
-    scene.lights = {directional(glm::normalize(glm::vec3(1, -1, 0)), 3)};
-    scene::Camera& camera = scene.cameras[0];
-    camera.position = {0, 100, 0};
-    camera.up = {0, 0, -1};
-    camera.projection = scene::ProjectionKind::Orthographic;
-    camera.orthographicHeight = 26;
+    lightAsideAndLookDown(scene);
     expectSameLight(scene, 400, "plane");
 }
 
@@ -118,12 +123,7 @@ TEST_F(Reference, BruteIsTheSurfaceIntegralOnACurvedSurfaceWithAShadowEdge) {
     scene::Scene scene = skinScene();
     place(scene, scene::ball(40), 0);
     place(scene, scene::rectangle({-120, -60}, {-42, 60}, 80), 1);
-    scene.lights = {directional(glm::normalize(glm::vec3(1, -1, 0)), 3)};
-    scene::Camera& camera = scene.cameras[0];
-    camera.position = {0, 100, 0};
-    camera.up = {0, 0, -1};
-    camera.projection = scene::ProjectionKind::Orthographic;
-    camera.orthographicHeight = 26;
+    lightAsideAndLookDown(scene);
     expectSameLight(scene, 400, "ball of 80 mm");
 }
 

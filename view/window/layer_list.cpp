@@ -1,6 +1,7 @@
 #include "view/window/layer_list.hpp"
 
 #include "view/model/edit_parameters.hpp"
+#include "view/window/push_button.hpp"
 
 #include <QHBoxLayout>
 #include <QPainter>
@@ -38,29 +39,32 @@ QString textOf(const Layer& layer) {
 } // namespace
 
 LayerList::LayerList(Document& document, QWidget* parent)
-    : QWidget(parent), document_(document), list_(new QListWidget), buttons_(new QWidget) {
+    : QWidget(parent), document_(document), list_(new QListWidget) {
     list_->setObjectName("layers");
     list_->setAccessibleName("Layers");
     list_->setFixedHeight(listHeight);
     list_->setDragDropMode(QAbstractItemView::InternalMove);
     list_->setToolTip(
         "Layers of the profile: root mean square radius and weights. A tick draws a layer; drag to reorder");
-    auto* row = new QHBoxLayout(buttons_);
+    auto* buttons = new QWidget;
+    auto* row = new QHBoxLayout(buttons);
     row->setContentsMargins(0, 0, 0, 0);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(list_);
-    layout->addWidget(buttons_);
-    addButton("layers.add", "&Add", "Add a layer twice as wide as the widest",
-              [this] { change("add layer", [](EditedMaterial& material) { addLayer(material); }); });
-    addButton("layers.duplicate", "Dupli&cate", "Add a copy of this layer", [this] {
+    layout->addWidget(buttons);
+    const auto add = [&](const char* name, const char* text, const char* toolTip, auto run) {
+        addButton(*row, this, name, text, toolTip, run)->setMinimumWidth(20);
+    };
+    add("layers.add", "&Add", "Add a layer twice as wide as the widest",
+        [this] { change("add layer", [](EditedMaterial& material) { addLayer(material); }); });
+    add("layers.duplicate", "Dupli&cate", "Add a copy of this layer", [this] {
         change("duplicate layer", [i = layer()](EditedMaterial& material) { duplicateLayer(material, i); });
     });
-    addButton("layers.remove", "&Remove", "Remove this layer", [this] {
-        change("remove layer", [i = layer()](EditedMaterial& material) { removeLayer(material, i); });
-    });
-    addButton("layers.up", "Up", "Move this layer up", [this] { move(-1); });
-    addButton("layers.down", "Down", "Move this layer down", [this] { move(1); });
+    add("layers.remove", "&Remove", "Remove this layer",
+        [this] { change("remove layer", [i = layer()](EditedMaterial& material) { removeLayer(material, i); }); });
+    add("layers.up", "Up", "Move this layer up", [this] { move(-1); });
+    add("layers.down", "Down", "Move this layer down", [this] { move(1); });
 
     connect(list_, &QListWidget::currentRowChanged, this, [this] {
         if (!refreshing_) {
@@ -91,16 +95,6 @@ LayerList::LayerList(Document& document, QWidget* parent)
             });
     connect(&document_, &Document::changed, this, &LayerList::refresh);
     connect(&document_, &Document::selectionChanged, this, &LayerList::refresh);
-}
-
-void LayerList::addButton(const QString& name, const QString& text, const QString& toolTip,
-                          const std::function<void()>& run) {
-    auto* button = new QPushButton(text);
-    button->setObjectName(name);
-    button->setToolTip(toolTip);
-    button->setMinimumWidth(20);
-    connect(button, &QPushButton::clicked, this, run);
-    buttons_->layout()->addWidget(button);
 }
 
 std::size_t LayerList::layer() const {

@@ -20,14 +20,12 @@ Q_SIGNALS:
     void selected();
 
 private:
-    void addButton(const QString& name, const QString& text, const QString& toolTip, const std::function<void()>& run);
     void refresh();
     void change(const QString& text, const std::function<void(EditedMaterial&)>& change);
     void move(int by);
 
     Document& document_;
     QListWidget* list_;
-    QWidget* buttons_;
     bool refreshing_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include "scene/default_view.hpp"
 #include "view/model/light_handles.hpp"
+#include "view/window/push_button.hpp"
 
 #include <QColorDialog>
 #include <QHBoxLayout>
@@ -33,11 +34,7 @@ LightPanel::LightPanel(Document& document, std::function<scene::Camera()> camera
         [&](std::initializer_list<std::tuple<const char*, const char*, const char*, std::function<void()>>> buttons) {
             auto* row = new QHBoxLayout;
             for (const auto& [name, text, toolTip, run] : buttons) {
-                auto* button = new QPushButton(text);
-                button->setObjectName(name);
-                button->setToolTip(toolTip);
-                connect(button, &QPushButton::clicked, this, run);
-                row->addWidget(button);
+                addButton(*row, this, name, text, toolTip, run);
             }
             layout->addLayout(row);
         };

@@ -1,5 +1,7 @@
 #include "view/window/look_panel.hpp"
 
+#include "view/window/push_button.hpp"
+
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -69,16 +71,10 @@ LookPanel::LookPanel(Document& document, QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(parameters_);
     auto* surroundings = new QHBoxLayout;
-    const auto addButton = [&](const QString& name, const QString& text, const QString& toolTip, auto run) {
-        auto* button = new QPushButton(text);
-        button->setObjectName(name);
-        button->setToolTip(toolTip);
-        connect(button, &QPushButton::clicked, this, run);
-        surroundings->addWidget(button);
-    };
-    addButton("environment.open", "&Open surroundings …",
+    addButton(*surroundings, this, "environment.open", "&Open surroundings …",
               "Light the scene by a picture of its surroundings, .hdr or .exr", [this] { chooseEnvironment(); });
-    addButton("environment.sky", "S&ky", "Light the scene by the built-in sky", [this] { setEnvironment({}); });
+    addButton(*surroundings, this, "environment.sky", "S&ky", "Light the scene by the built-in sky",
+              [this] { setEnvironment({}); });
     layout->addWidget(environment_);
     layout->addLayout(surroundings);
     auto* form = new QFormLayout;

@@ -4,6 +4,7 @@
 #include "nacre/presets.hpp"
 #include "view/model/material_structs.hpp"
 #include "view/model/recipes.hpp"
+#include "view/window/push_button.hpp"
 #include "view/window/recipe_dialog.hpp"
 #include "view/window/shown_image.hpp"
 #include "view/window/slab_dialog.hpp"
@@ -63,32 +64,27 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
     source->addRow("&Preset", presets_);
     source->addRow(source_);
     auto* make = new QHBoxLayout;
-    const auto addMaker = [&](const QString& name, const QString& text, const QString& toolTip, auto run) {
-        auto* button = new QPushButton(text);
-        button->setObjectName(name);
-        button->setToolTip(toolTip);
-        connect(button, &QPushButton::clicked, this, run);
-        make->addWidget(button);
-    };
-    addMaker("material.skin", "S&kin …", "Layers of skin by its melanin and blood", &MaterialPanel::makeSkin);
-    addMaker("material.meanFreePath", "Mean &free path …", "Layers of a medium by its colour and mean free path",
-             &MaterialPanel::makeMeanFreePath);
-    addMaker("material.slabs", "Sla&bs …", "Layers of a stack of physical slabs", &MaterialPanel::editSlabs);
+    addButton(*make, this, "material.skin", "S&kin …", "Layers of skin by its melanin and blood",
+              &MaterialPanel::makeSkin);
+    addButton(*make, this, "material.meanFreePath", "Mean &free path …",
+              "Layers of a medium by its colour and mean free path", &MaterialPanel::makeMeanFreePath);
+    addButton(*make, this, "material.slabs", "Sla&bs …", "Layers of a stack of physical slabs",
+              &MaterialPanel::editSlabs);
     source->addRow(make);
     make = new QHBoxLayout;
-    addMaker("material.load", "&Load …", "Read a material file", [this] {
+    addButton(*make, this, "material.load", "&Load …", "Read a material file", [this] {
         const QString file = QFileDialog::getOpenFileName(this, "Load a material", {}, materialFilter);
         if (!file.isEmpty()) {
             load(file);
         }
     });
-    addMaker("material.save", "&Save …", "Write this material to a file", [this] { askAndSave(); });
+    addButton(*make, this, "material.save", "&Save …", "Write this material to a file", [this] { askAndSave(); });
     source->addRow(make);
     layout->addLayout(source);
     swatch_->setObjectName("material.swatch");
     swatch_->setAccessibleName("Swatch");
     swatch_->setToolTip(
-        "This material as large as it is, drawn by the same frame: the edge of a shadow, a wedge of 0 to "
+        "This material as large as it is, drawn by the same frame: the edge of a shadow, a wedge of 0.2 to "
         "12 mm lit from behind, a ball of 20 mm");
     swatch_->setFixedHeight(physicalDpiY()); // an inch, which a swatch nearly is
     layout->addWidget(swatch_);

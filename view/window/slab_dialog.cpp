@@ -1,5 +1,6 @@
 #include "view/window/slab_dialog.hpp"
 
+#include "view/window/push_button.hpp"
 #include "view/window/recipe_dialog.hpp"
 
 #include <QHBoxLayout>
@@ -48,29 +49,22 @@ SlabDialog::SlabDialog(std::vector<Slab> slabs, std::function<void(const std::ve
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(list_);
     auto* row = new QHBoxLayout;
-    const auto addButton = [&](const char* name, const char* text, const char* toolTip, auto run) {
-        auto* button = new QPushButton(text);
-        button->setObjectName(name);
-        button->setToolTip(toolTip);
-        connect(button, &QPushButton::clicked, this, run);
-        row->addWidget(button);
-    };
-    addButton("slabs.add", "&Add", "Add a copy of this slab below it", [this] {
+    addButton(*row, this, "slabs.add", "&Add", "Add a copy of this slab below it", [this] {
         change([i = slab()](std::vector<Slab>& all) {
             if (all.size() < mostSlabs) {
                 all.insert(all.begin() + static_cast<std::ptrdiff_t>(i), Slab(all[i]));
             }
         });
     });
-    addButton("slabs.remove", "&Remove", "Remove this slab", [this] {
+    addButton(*row, this, "slabs.remove", "&Remove", "Remove this slab", [this] {
         change([i = slab()](std::vector<Slab>& all) {
             if (all.size() > 1) {
                 all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
             }
         });
     });
-    addButton("slabs.up", "&Up", "Move this slab up", [this] { move(-1); });
-    addButton("slabs.down", "&Down", "Move this slab down", [this] { move(1); });
+    addButton(*row, this, "slabs.up", "&Up", "Move this slab up", [this] { move(-1); });
+    addButton(*row, this, "slabs.down", "&Down", "Move this slab down", [this] { move(1); });
     layout->addLayout(row);
     layout->addWidget(parameters_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);

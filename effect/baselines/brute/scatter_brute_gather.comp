@@ -136,14 +136,15 @@ const int outlineDirections = 64;
 // Integral of Burley's profile over the receiver's own patch, around whose middle R has a pole: the mean, over directions on
 // the surface, of the share within the distance to the patch's outline.
 vec3 burleyOwnMass(TangentPlane surface, vec3 meanFreePath) {
-    vec3 along = normalize(surface.x);
-    vec3 across = surface.y - along * dot(surface.y, along);
-    float acrossLength = length(across);
+    float alongLength = length(surface.x);
+    vec3 along = surface.x / alongLength;
+    float lean = dot(surface.y, along);
+    float acrossLength = length(surface.y - along * lean);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < outlineDirections; ++i) {
         float angle = (float(i) + 0.5) * pi / float(outlineDirections);
         float v = sin(angle) / acrossLength; // in steps of y and of x
-        float u = (cos(angle) - v * dot(surface.y, along)) / length(surface.x);
+        float u = (cos(angle) - v * lean) / alongLength;
         sum += burleyWithin(0.5 / max(abs(u), abs(v)), meanFreePath);
     }
     return sum / float(outlineDirections);
@@ -159,7 +160,7 @@ int samplesAlong(vec3 side, float size, int samples) {
 
 // The mean of Burley's profile over another pixel's patch.
 vec3 burleyMean(Receiver receiver, vec3 middle, TangentPlane surface, int samples, vec3 meanFreePath) {
-    float size = length(vec2(stepX(middle.z)));
+    float size = length(stepX(middle.z));
     ivec2 count = ivec2(samplesAlong(surface.x, size, samples), samplesAlong(surface.y, size, samples));
     vec3 sum = vec3(0.0);
     for (int i = 0; i < count.x * count.y; ++i) {
@@ -180,8 +181,10 @@ void addBurley(Receiver receiver, vec3 meanFreePath, inout Sum sum) {
             }
             TangentPlane surface = patchAt(receiver, ivec2(x, y), pixel);
             int ring = max(abs(x), abs(y));
-            vec3 weight = ring == 0 ? burleyOwnMass(surface, meanFreePath)
-                                    : pixel.light.w * burleyMean(receiver, pixel.position.xyz, surface, ring == 1 ? 6 : 2, meanFreePath);
+            int samples = ring == 1 ? 6 : 2;
+            vec3 weight =
+                ring == 0 ? burleyOwnMass(surface, meanFreePath)
+                          : pixel.light.w * burleyMean(receiver, pixel.position.xyz, surface, samples, meanFreePath);
             sum.light += weight * pixel.light.rgb;
             sum.weight += weight;
         }
