@@ -93,7 +93,7 @@ float deepestEntry(MapDepths map) {
     vec4 deepest = vec4(-nothingThere);
     for (int row = 0; row < 4; ++row) {
         vec4 depth = map.depth[row];
-        deepest = max(deepest, mix(depth, vec4(-nothingThere), step(0.5 * nothingThere, depth)));
+        deepest = max(deepest, mix(depth, vec4(-nothingThere), greaterThanEqual(depth, vec4(0.5 * nothingThere))));
     }
     return max(max(deepest.x, deepest.y), max(deepest.z, deepest.w));
 }
@@ -177,7 +177,7 @@ mat4 entryThickness(LitPoints points, EntryPlane plane, float most) {
         vec4 z = plane.height + lean;
         vec4 excess = points.distance[row] - sqrt(x * x + y * y + z * z);
         vec4 own = min(abs(points.z[row] - lean) * plane.cosine, most);
-        thickness[row] = mix(vec4(opaque), max(across + excess, own), step(vec4(1e-9), points.weight[row]));
+        thickness[row] = mix(vec4(opaque), max(across + excess, own), greaterThan(points.weight[row], vec4(0.0)));
     }
     return thickness;
 }

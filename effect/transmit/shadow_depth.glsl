@@ -76,7 +76,7 @@ MapDepths depthsAlongLight(LightParameters light, vec4 columns, vec4 rows, uint 
         if (isHardware) {
             result.isEntry[row] = 1.0 - step(nothingThere, result.depth[row]);
         } else { // below 0: a body's back; 1: nothing
-            result.depth[row] = mix(abs(stored[row]) * range, vec4(nothingThere), step(1.0, stored[row]));
+            result.depth[row] = mix(abs(stored[row]) * range, vec4(nothingThere), greaterThanEqual(stored[row], vec4(1.0)));
             result.isEntry[row] = step(0.0, stored[row]) * (1.0 - step(1.0, stored[row]));
         }
     }
