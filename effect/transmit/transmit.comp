@@ -54,6 +54,8 @@ const float sameSurfaceSpread = 0.25;
 const float leastFacing = 0.3;
 // [1] The same cosine from which on all light around an entry point is taken to enter where the camera sees it.
 const float fullyFacing = 0.5;
+// [1] The cosine between the normal there and the light from which on the light is taken to enter there.
+const float fullyLit = 0.25;
 // [1] Transmittance below which nobody asks whether scatter has the light already: twice as much of it is not seen.
 const float leastTwice = 1.0 / 256.0;
 
@@ -246,7 +248,7 @@ float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolera
     }
     float z = viewZ(pixel);
     vec3 normal = worldNormal(texelFetch(normalImage, pixel, 0).xyz);
-    if (!isValidZ(z) || !isFinite(normal) || dot(normal, toLight) <= 0.0) {
+    if (!isValidZ(z) || !isFinite(normal)) {
         return 1.0;
     }
     vec3 ray = vec3(rayAt(pixel), 1.0); // to the camera
@@ -254,7 +256,7 @@ float hiddenShare(Receiver receiver, vec3 toLight, float thickness, float tolera
     float facing = dot(mat3(view.viewFromWorld) * normal, ray) / stretch;
     float distance = abs(entry.z - z) * stretch * max(facing, leastFacing);
     float same = clamp(2.0 - distance / (tolerance + length(stepX(z)) * sameSurfaceTexels), 0.0, 1.0);
-    return 1.0 - same * smoothstep(0.0, fullyFacing, facing);
+    return 1.0 - same * smoothstep(0.0, fullyFacing, facing) * smoothstep(0.0, fullyLit, dot(normal, toLight));
 }
 
 // Light of one light through the receiver's body (rgb), and the thickness in mm (w), -1 where none shines through.
