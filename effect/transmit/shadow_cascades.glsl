@@ -43,7 +43,7 @@ MapsAnswer throughMaps(LightParameters light, Receiver receiver, vec3 toLight, f
         if (inCascades) {
             share = left * cascadeShare(light, map, receiver, point);
         }
-        for (bool asked = share > 0.0; asked; asked = false) { // software devices skip it where no pixel is inside
+        if (share > 0.0) {
             sum += share * lightThrough(map, receiver, point, toLight, cosine);
             texelSize = max(texelSize, point.texelSize);
         }
