@@ -109,6 +109,7 @@ struct EffectArguments {
     std::string halfFloats = "on";
     std::string skipUnscattered = "off";
     std::string albedo = "off";
+    std::string lightFormat = "half";
     Path csv = "nacre-bench-effect.csv";
     bench::GpuTimingSettings timing;
     renderer::DeviceSettings device;
@@ -127,6 +128,7 @@ bench::EffectTimingOptions makeEffectOptions(const EffectArguments& arguments) {
             .halfFloats = bench::parseHalfFloats(arguments.halfFloats),
             .skipUnscattered = bench::parseSkipUnscattered(arguments.skipUnscattered),
             .albedo = bench::parseAlbedo(arguments.albedo),
+            .lightFormat = bench::parseLightFormat(arguments.lightFormat),
         };
     });
 }
@@ -171,6 +173,8 @@ Examples:
     add("--skip-unscattered", arguments->skipUnscattered,
         "Leave pixels without a material as they are: on, off or both", "X");
     add("--albedo", arguments->albedo, "Give scatter 8-bit albedo, used so: off, post or preAndPost", "X");
+    add("--light-format", arguments->lightFormat,
+        "Of scatter's irradiance and output: half (R16G16B16A16_SFLOAT) or packed (B10G11R11_UFLOAT_PACK32)", "FORMAT");
     add("--csv", arguments->csv, "Where all figures go", "FILE");
     addDevice(*command, arguments->device.name);
     command->callback([arguments] { runEffect(*arguments); });

@@ -4,6 +4,8 @@
 
 #include "core/half.hpp"
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -90,6 +92,10 @@ renderer::Image& EffectImages::addLight(const std::string& name, vk::Format form
     if (format == vk::Format::eR8G8B8A8Unorm) {
         return addInput(info, bytesOf(convertEach<std::array<std::uint8_t, 4>>(light, toBytes)));
     }
+    if (format == vk::Format::eB10G11R11UfloatPack32) {
+        const auto pack = [](const Rgb& value) { return glm::packF2x11_1x10(glm::vec3(value[0], value[1], value[2])); };
+        return addInput(info, bytesOf(convertEach<std::uint32_t>(light, pack)));
+    }
     return addInput(info, bytesOf(convertEach<std::array<std::uint16_t, 4>>(light, toHalves)));
 }
 
@@ -115,11 +121,10 @@ renderer::Image& EffectImages::addShadowMap(std::uint32_t size, std::span<const 
                     std::as_bytes(texels));
 }
 
-renderer::Image& EffectImages::addOutput(const std::string& name) {
-    renderer::Image& image = images_.emplace_back(gpu_, renderer::ImageInfo{.name = name,
-                                                                            .format = vk::Format::eR16G16B16A16Sfloat,
-                                                                            .extent = extent_,
-                                                                            .usage = vk::ImageUsageFlagBits::eStorage});
+renderer::Image& EffectImages::addOutput(const std::string& name, vk::Format format) {
+    renderer::Image& image = images_.emplace_back(
+        gpu_, renderer::ImageInfo{
+                  .name = name, .format = format, .extent = extent_, .usage = vk::ImageUsageFlagBits::eStorage});
     gpu_.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
         renderer::prepare(commandBuffer, {{image, renderer::usage::computeWrite}});
     });

@@ -46,7 +46,7 @@ public:
     /// Square, of linear depth, one layer or six.
     renderer::Image& addShadowMap(std::uint32_t size, std::span<const float> texels);
     /// RGBA16F, that the effect writes.
-    renderer::Image& addOutput(const std::string& name);
+    renderer::Image& addOutput(const std::string& name, vk::Format format);
 
 private:
     renderer::Image& addInput(renderer::ImageInfo info, std::span<const std::byte> texels);

@@ -61,4 +61,9 @@ std::optional<AlbedoUse> parseAlbedo(std::string_view text) {
         "--albedo", text, {{"off", std::nullopt}, {"post", AlbedoUse::Post}, {"preAndPost", AlbedoUse::PreAndPost}});
 }
 
+VkFormat parseLightFormat(std::string_view text) {
+    return choose<VkFormat>("--light-format", text,
+                            {{"half", VK_FORMAT_R16G16B16A16_SFLOAT}, {"packed", VK_FORMAT_B10G11R11_UFLOAT_PACK32}});
+}
+
 } // namespace nacre::bench

@@ -23,8 +23,8 @@ constexpr double secondsBetweenReports = 5;
 // What a subject's works use.
 struct SubjectStage {
     SubjectStage(renderer::Gpu& gpu, const ScatterScene& scene, std::span<const std::uint16_t> ids, bool wideIds,
-                 bool albedo, const vk::raii::Sampler& nearest)
-        : images(gpu, scene, ids, wideIds, albedo),
+                 const EffectTimingOptions& options, const vk::raii::Sampler& nearest)
+        : images(gpu, scene, ids, wideIds, options.albedo.has_value(), static_cast<vk::Format>(options.lightFormat)),
           copy(gpu, {images.irradiance, images.depth, images.materialId}, nearest) {}
 
     ScatterImages images;
@@ -235,8 +235,8 @@ private:
         std::list<SubjectStage> stages;
         std::vector<TimedWork> works;
         for (const ScatterSubject& subject : subjects) {
-            const SubjectStage& stage = stages.emplace_back(gpu_, scene, scatterIds(scene, subject), most.materials > 4,
-                                                            options_.albedo.has_value(), nearest_);
+            const SubjectStage& stage =
+                stages.emplace_back(gpu_, scene, scatterIds(scene, subject), most.materials > 4, options_, nearest_);
             std::ranges::move(makeWorks(effect, stage, techniques), std::back_inserter(works));
         }
         std::vector<WorkTimes> times = timeInTurns(gpu_, works, options_.timing, progressOf(most.label()));

@@ -6,8 +6,6 @@
 namespace nacre::bench {
 namespace {
 
-constexpr vk::Format lightFormat = vk::Format::eR16G16B16A16Sfloat;
-
 VkExtent2D extentOf(const ScatterScene& scene) {
     return {static_cast<std::uint32_t>(scene.width), static_cast<std::uint32_t>(scene.height)};
 }
@@ -75,7 +73,7 @@ std::vector<std::uint16_t> scatterIds(const ScatterScene& scene, const ScatterSu
 }
 
 ScatterImages::ScatterImages(renderer::Gpu& gpu, const ScatterScene& scene, std::span<const std::uint16_t> ids,
-                             bool wideIds, bool albedo)
+                             bool wideIds, bool albedo, vk::Format lightFormat)
     : images(gpu, extentOf(scene)),
       irradiance(images.addLight("irradiance", lightFormat, scene.irradiance)),
       depth(images.addDepth(depthOf(scene))),
@@ -88,7 +86,7 @@ ScatterImages::ScatterImages(renderer::Gpu& gpu, const ScatterScene& scene, std:
         const std::vector<Rgb> values(scene.depth.size(), Rgb{0.75, 0.5, 0.25});
         info.albedo = effectImage(images.addLight("albedo", vk::Format::eR8G8B8A8Unorm, values));
     }
-    info.scattered = effectImage(images.addOutput("scattered"));
+    info.scattered = effectImage(images.addOutput("scattered", lightFormat));
 }
 
 } // namespace nacre::bench

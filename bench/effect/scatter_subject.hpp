@@ -31,9 +31,9 @@ std::vector<std::uint16_t> scatterIds(const ScatterScene& scene, const ScatterSu
 
 /// The images of a scatter call, and the struct that names them.
 struct ScatterImages {
-    /// `wideIds`: ids of 16 bits.
+    /// `wideIds`: ids of 16 bits. `lightFormat`: of irradiance and scattered light.
     ScatterImages(renderer::Gpu& gpu, const ScatterScene& scene, std::span<const std::uint16_t> ids, bool wideIds,
-                  bool albedo);
+                  bool albedo, vk::Format lightFormat);
 
     EffectImages images;
     renderer::Image& irradiance;

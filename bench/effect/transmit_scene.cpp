@@ -175,7 +175,7 @@ TransmitScene::TransmitScene(renderer::Gpu& gpu, VkExtent2D extent, double cover
     info.depth = effectImage(images_.addDepth(buffers.depth));
     info.materialId = effectImage(images_.addIds(vk::Format::eR8Uint, buffers.ids));
     info.normal = effectImage(images_.addLight("normals", vk::Format::eR16G16B16A16Sfloat, buffers.normals));
-    info.transmitted = effectImage(images_.addOutput("transmitted"));
+    info.transmitted = effectImage(images_.addOutput("transmitted", vk::Format::eR16G16B16A16Sfloat));
     const Vector target{0, 0, -middle};
     lights_ = {makeLight(NACRE_LIGHT_DIRECTIONAL, {-250, 150, -650}, target, 0),
                makeLight(NACRE_LIGHT_SPOT, {200, 200, -700}, target, 1),

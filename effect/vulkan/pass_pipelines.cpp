@@ -4,6 +4,13 @@
 #include "vulkan/bindings.hpp"
 #include "vulkan/context.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
 namespace nacre::effect {
 namespace {
 
@@ -79,21 +86,67 @@ struct PassConstants {
         {{0, 0, 4}, {1, 4, 4}, {constantNoMaterialIds, 8, 4}, {constantNormalEncoding, 12, 4}}};
 };
 
-PassPipelines createVariants(const Context& context, VkPipelineLayout layout, const Pass& pass, VkPipelineCache cache) {
-    PassPipelines pipelines;
+// A pipeline to be made, and where it goes.
+struct PipelineOrder {
+    Pass pass;
+    VkPipelineLayout layout;
+    Variant variant;
+    Owned<VkPipeline>* pipeline;
+};
+
+void createOrdered(const Context& context, VkPipelineCache cache, const PipelineOrder& order) {
+    // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under the first ids.
+    const PassConstants constants(context, order.variant);
+    const std::uint32_t first = variantsOf(order.pass) != 0 ? 0 : PassConstants::ofVariants;
+    const VkSpecializationInfo info{PassConstants::count - first, constants.entries.data() + first,
+                                    sizeof(constants.values), constants.values.data()};
+    *order.pipeline = createPipeline(context.device, order.layout, order.pass, cache, &info);
+}
+
+// Adds the variants of a pass. `pipelines` stays where it is until they are made.
+void orderVariants(std::vector<PipelineOrder>& orders, const Pass& pass, VkPipelineLayout layout,
+                   PassPipelines& pipelines) {
     for (Variant variant = 0; variant < variantCount; ++variant) {
-        if ((variant & ~variantsOf(pass)) != 0) {
-            continue;
+        if ((variant & ~variantsOf(pass)) == 0) {
+            orders.push_back({pass, layout, variant, &pipelines[variant]});
         }
-        // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under the first
-        // ids.
-        const PassConstants constants(context, variant);
-        const std::uint32_t first = variantsOf(pass) != 0 ? 0 : PassConstants::ofVariants;
-        const VkSpecializationInfo info{PassConstants::count - first, constants.entries.data() + first,
-                                        sizeof(constants.values), constants.values.data()};
-        pipelines[variant] = createPipeline(context.device, layout, pass, cache, &info);
     }
-    return pipelines;
+}
+
+// Drivers compile on the thread that calls. Callbacks of the caller's are called on its own thread alone.
+std::size_t threadCount(const Context& context, std::size_t orderCount) {
+    const std::size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+    return context.device.allocator ? 1 : std::min(cores, orderCount);
+}
+
+void createAll(const Context& context, VkPipelineCache cache, std::span<const PipelineOrder> orders) {
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < orders.size(); i = next++) {
+            try {
+                createOrdered(context, cache, orders[i]);
+            } catch (...) {
+                const std::scoped_lock lock(mutex);
+                failure = std::current_exception();
+                next = orders.size();
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        try {
+            for (std::size_t i = 1; i < threadCount(context, orders.size()); ++i) {
+                others.emplace_back(work);
+            }
+        } catch (const std::system_error&) { // the system has no more threads: those that run do it all
+        }
+        work();
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
 }
 
 } // namespace
@@ -105,22 +158,25 @@ void createLayouts(Context& context) {
 
 TechniquePipelines createPipelines(const Context& context, VkPipelineCache cache) {
     TechniquePipelines pipelines;
+    std::vector<PipelineOrder> orders;
     for (std::size_t i = 0; i < techniqueCount; ++i) {
         if (!context.enabled[i]) {
             continue;
         }
         const CallLayout& callLayout = i == transmitIndex ? context.transmit : context.scatter;
-        const VkPipelineLayout layout = callLayout.layout.get();
+        pipelines[i].resize(techniques[i]->passes.size() + techniques[i]->materialPasses.size());
+        auto made = pipelines[i].begin();
         for (const std::span<const Pass> part : {techniques[i]->passes, techniques[i]->materialPasses}) {
             for (Pass pass : part) {
                 if (context.shaderFloat16 && pass.halfFile) {
                     pass.file = pass.halfFile;
                     pass.spirv = pass.halfSpirv;
                 }
-                pipelines[i].push_back(createVariants(context, layout, pass, cache));
+                orderVariants(orders, pass, callLayout.layout.get(), *made++);
             }
         }
     }
+    createAll(context, cache, orders);
     return pipelines;
 }
 

@@ -234,7 +234,8 @@ typedef struct NacreContextInfo {
     VkPhysicalDevice physicalDevice;
     VkDevice device;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr; /**< required; every entry point is reached through it */
-    const VkAllocationCallbacks* allocator;        /**< host allocation callbacks, copied; null = Vulkan's own */
+    const VkAllocationCallbacks* allocator;        /**< host allocation callbacks, copied; null = Vulkan's own, and
+                                    pipelines are compiled on as many threads as the host has */
     VkPipelineCache pipelineCache;                 /**< VK_NULL_HANDLE = none. Compiling bank may take seconds; from a cache
                                     that has its pipelines, milliseconds (docs/integration.md has figures) */
     VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area, or scissor where one is given; see nacreResize */

@@ -106,6 +106,7 @@ std::uint32_t pixelBytes(vk::Format format) {
     case vk::Format::eR16Uint:
     case vk::Format::eR16Sfloat:
         return 2;
+    case vk::Format::eB10G11R11UfloatPack32:
     case vk::Format::eR32Sfloat:
     case vk::Format::eD32Sfloat:
     case vk::Format::eR8G8B8A8Unorm:
