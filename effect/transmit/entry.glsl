@@ -54,7 +54,8 @@ EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec
     EntryFrame frame;
     frame.stepX = vec2(scale * length(alongX), 0.0);
     frame.stepY = scale * vec2(dot(alongY, axisX), dot(alongY, axisY));
-    frame.taper = vec2(dot(point.projection.w.xyz, alongX), dot(point.projection.w.xyz, alongY)) / dot(gradientX, alongX);
+    frame.taper =
+        vec2(dot(point.projection.w.xyz, alongX), dot(point.projection.w.xyz, alongY)) / dot(gradientX, alongX);
     frame.normal = vec3(dot(normal, axisX), dot(normal, axisY), dot(normal, toLight));
     frame.moved = -point.moved * view.mmPerUnit * frame.normal.xy;
     frame.depth = depth;
@@ -62,8 +63,8 @@ EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec
     return frame;
 }
 
-// Texels between the points on an axis of the map. Where a texel's size changes over the map it keeps to powers of two, so
-// that the points of neighbours are the same.
+// Texels between the points on an axis of the map. Where a texel's size changes over the map it keeps to powers of two,
+// so that the points of neighbours are the same.
 float entrySpacingOf(LightParameters light, uint material, float texelSize) {
     float wanted = entrySpacing * tables[material].spread / (texelSize * view.mmPerUnit);
     if (light.kind != lightDirectional) {
@@ -72,20 +73,6 @@ float entrySpacingOf(LightParameters light, uint material, float texelSize) {
     float least = max(0.5 * parameters.filterRadius, 0.5);
     bool isWide = !hasFlag(flagThesisTransmittance);
     return isWide ? max(least, min(wanted, 0.25 * min(light.shadowSize.x, light.shadowSize.y))) : least;
-}
-
-// Texels of the 4 taps on an axis, and their weights: a tent, so that points come and go without weight. What lies outside
-// of the map is not known, and has none.
-void taps(float coordinate, float spacing, float last, out vec4 texels, out vec4 weights) {
-    const vec4 tap = vec4(-1.0, 0.0, 1.0, 2.0);
-    float base = floor(coordinate / spacing - 0.5);
-    float fraction = coordinate / spacing - 0.5 - base;
-    texels = floor((base + tap + 0.5) * spacing);
-    vec4 tent = 0.5 - 0.25 * abs(tap - fraction);
-    weights = tent * step(0.0, texels) * step(texels, vec4(last));
-    float sum = dot(weights, vec4(1.0));
-    weights = sum > 0.0 ? weights / sum : tent;
-    texels = clamp(texels, 0.0, last);
 }
 
 // The largest of 4x4 depths at which there is something, -nothingThere where there is nothing.
@@ -98,17 +85,18 @@ float deepestEntry(MapDepths map) {
     return max(max(deepest.x, deepest.y), max(deepest.z, deepest.w));
 }
 
-// `columns`, `rows`: texels from where the receiver falls in the map. `farthest`: mm, of the receiver from its entry.
+// `coordinate`: where the receiver falls in the map, texels. `farthest`: mm, of the receiver from its entry.
 // `inmost`: mm, how far beneath the receiver's plane its own body reaches.
-LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, vec4 columnWeights, vec4 rowWeights,
-                    float farthest, float inmost) {
+LitPoints litPoints(EntryFrame frame, MapDepths map, Taps taps, vec2 coordinate, float farthest, float inmost) {
     LitPoints points;
     points.count = 0.0;
     points.shadowed = 0.0;
     for (int row = 0; row < 4; ++row) {
-        vec4 perspective = 1.0 / max(1.0 - columns * frame.taper.x - rows[row] * frame.taper.y, 0.01);
-        vec4 x = (columns * frame.stepX.x + rows[row] * frame.stepY.x) * perspective;
-        vec4 y = rows[row] * frame.stepY.y * perspective;
+        vec4 texelsX = tapsX(taps, row) + 0.5 - coordinate.x;
+        vec4 texelsY = tapsY(taps, row) + 0.5 - coordinate.y;
+        vec4 perspective = 1.0 / max(1.0 - texelsX * frame.taper.x - texelsY * frame.taper.y, 0.01);
+        vec4 x = (texelsX * frame.stepX.x + texelsY * frame.stepY.x) * perspective;
+        vec4 y = texelsY * frame.stepY.y * perspective;
         vec4 slant = inversesqrt(1.0 + frame.curvature * frame.curvature * (x * x + y * y));
         vec4 depth = min(map.depth[row], frame.depth + 2.0 * farthest);
         vec4 share = frame.curvature > 0.0 ? frame.curvature * depth * slant : vec4(1.0); // a lamp's rays part
@@ -121,7 +109,7 @@ LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, ve
         points.z[row] = z;
         points.distance[row] = sqrt(x * x + y * y + z * z);
         vec4 isOther = 1.0 - step(beneath, vec4(inmost));
-        vec4 weight = columnWeights * rowWeights[row];
+        vec4 weight = taps.columnWeights * taps.rowWeights[row];
         points.weight[row] = weight * map.isEntry[row] * step(points.distance[row], vec4(farthest)) * (1.0 - isOther);
         points.count += dot(points.weight[row], vec4(1.0));
         points.shadowed += dot(weight, isOther);
@@ -129,8 +117,8 @@ LitPoints litPoints(EntryFrame frame, MapDepths map, vec4 columns, vec4 rows, ve
     return points;
 }
 
-// By least squares, in which near points count most. Where the points lie on a line or are few, it faces the light as far as
-// they do not tell. `spacing`: mm between the points.
+// By least squares, in which near points count most. Where the points lie on a line or are few, it faces the light as
+// far as they do not tell. `spacing`: mm between the points.
 EntryPlane entryPlane(LitPoints points, vec3 normal, float spacing) {
     float sum = 0.0;
     vec3 first = vec3(0.0);  // moments: x, y, z
@@ -155,7 +143,8 @@ EntryPlane entryPlane(LitPoints points, vec3 normal, float spacing) {
     square.xz = max(square.xz, 0.0) + least;
     float determinant = max(square.x * square.z - square.y * square.y, least * least);
     EntryPlane plane;
-    plane.slope = vec2(height.x * square.z - height.y * square.y, height.y * square.x - height.x * square.y) / determinant;
+    plane.slope =
+        vec2(height.x * square.z - height.y * square.y, height.y * square.x - height.x * square.y) / determinant;
     plane.height = mean.z - dot(plane.slope, mean.xy);
     plane.cosine = inversesqrt(1.0 + dot(plane.slope, plane.slope));
     plane.opposite = plane.cosine * (dot(plane.slope, normal.xy) - normal.z);
@@ -165,9 +154,8 @@ EntryPlane entryPlane(LitPoints points, vec3 normal, float spacing) {
     return plane;
 }
 
-// Arguments of the transmittance over the points: how far the receiver is from the plane, and how much nearer or farther
-// than the plane each point is; but no nearer than it is across the plane.
-// `most`: mm, authored.
+// Arguments of the transmittance over the points: how far the receiver is from the plane, and how much nearer or
+// farther than the plane each point is; but no nearer than it is across the plane. `most`: mm, authored.
 mat4 entryThickness(LitPoints points, EntryPlane plane, float most) {
     float across = min(abs(plane.height) * plane.cosine, most);
     mat4 thickness;

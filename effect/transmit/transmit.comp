@@ -3,6 +3,7 @@
 // that enters where the camera sees it is scatter's, and is left out here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "interface/blocks.h"
 #include "transmit_blocks.h"
@@ -43,6 +44,7 @@ const uint lightDirectional = 0u; // NacreLightKind
 const uint lightPoint = 2u;
 const uint noShadowMap = 0xffffffffu;
 
+#include "shadow_taps.glsl"
 #include "shadow_depth.glsl"
 
 // [1] How far an entry point may lie from the surface that is seen at its pixel and still be the same: this many texels of
@@ -170,24 +172,22 @@ float certaintyOf(Receiver receiver, float texelSize, float deviation) {
 }
 
 // The thesis's own: along the light, under the receiver's cosine.
-vec4 thesisThrough(Receiver receiver, LitPoints points, vec4 columnWeights, vec4 rowWeights, float cosine) {
+vec4 thesisThrough(Receiver receiver, LitPoints points, Taps taps, float cosine) {
     float most = receiver.authored > 0.0 ? receiver.authored : opaque;
     mat4 thickness;
     for (int row = 0; row < 4; ++row) {
         thickness[row] = clamp(points.z[row], 0.0, most);
     }
-    vec3 through = transmittance(receiver.material, thickness, columnWeights, rowWeights);
-    return vec4(through * cosine, dot(thickness * rowWeights, columnWeights));
+    vec3 through = transmittance(receiver.material, thickness, taps.columnWeights, taps.rowWeights);
+    return vec4(through * cosine, dot(thickness * taps.rowWeights, taps.columnWeights));
 }
 
 // What comes through of a light that shines on a surface that faces it with 1 (rgb), and thickness along the light in mm
 // (w). What is filtered is the transmittance: light adds up, thickness does not.
 vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, vec3 toLight, float cosine) {
-    vec4 columns, rows, columnWeights, rowWeights;
     float spacing = entrySpacingOf(light, receiver.material, point.texelSize);
-    taps(point.texel.x, spacing, light.shadowSize.x - 1.0, columns, columnWeights);
-    taps(point.texel.y, spacing, light.shadowSize.y - 1.0, rows, rowWeights);
-    MapDepths map = depthsAlongLight(light, columns, rows, point.projection.layer);
+    Taps taps = tapsAround(point.texel, spacing, light.shadowSize);
+    MapDepths map = depthsAlongLight(light, taps, point.projection.layer);
     bool isBounded = receiver.authored > 0.0;
     if (isFrontFaceCulled(light)) { // the entry is the authored thickness in front of the body's own far side
         map.depth -= receiver.authored;
@@ -207,14 +207,13 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     bool isThesis = hasFlag(flagThesisTransmittance);
     for (bool shines = nearest <= farthest || isThesis; shines; shines = false) { // else the body is thick, as most are
         EntryFrame frame = entryFrame(light, point, receiver.normal, toLight, depth);
-        LitPoints points = litPoints(frame, map, columns + 0.5 - point.texel.x, rows + 0.5 - point.texel.y, columnWeights,
-                                     rowWeights, farthest, inmost);
+        LitPoints points = litPoints(frame, map, taps, point.texel, farthest, inmost);
         if (isThesis) {
-            return thesisThrough(receiver, points, columnWeights, rowWeights, cosine);
+            return thesisThrough(receiver, points, taps, cosine);
         }
         EntryPlane plane = entryPlane(points, frame.normal, spacing * texel);
         mat4 thickness = entryThickness(points, plane, most);
-        result.rgb = transmittance(receiver.material, thickness, columnWeights, rowWeights);
+        result.rgb = transmittance(receiver.material, thickness, taps.columnWeights, taps.rowWeights);
         result.rgb *= plane.cosine * entryShare(plane.opposite);
         result.w = points.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
         deviation = plane.deviation;
