@@ -18,14 +18,14 @@ ImageInfo lightImage(const char* name, vk::Extent2D extent, vk::ImageUsageFlags 
 
 } // namespace
 
-Lighting::Lighting(Gpu& gpu, const Inputs& inputs, std::size_t maxLights, vk::ImageUsageFlags irradianceUsage,
+Lighting::Lighting(Gpu& gpu, const Inputs& inputs, std::size_t mostLights, vk::ImageUsageFlags irradianceUsage,
                    std::uint32_t framesInFlight) {
     GBuffer& gbuffer = inputs.gbuffer;
     const vk::Extent2D extent = gbuffer.image(GBuffer::Depth).info().extent;
     irradiance_ = Image(gpu, lightImage("irradiance", extent, irradianceUsage));
     specular_ = Image(gpu, lightImage("specular", extent, {}));
     constexpr vk::BufferUsageFlags read = vk::BufferUsageFlagBits::eStorageBuffer;
-    lights_ = FrameBuffer(gpu, "lights", std::max<std::size_t>(maxLights, 1) * sizeof(shared::LightConstants), read,
+    lights_ = FrameBuffer(gpu, "lights", std::max<std::size_t>(mostLights, 1) * sizeof(shared::LightConstants), read,
                           framesInFlight);
     coverage_ =
         FrameBuffer(gpu, "subsurface coverage", sizeof(std::uint32_t), read, framesInFlight, Buffer::Place::Host);

@@ -18,8 +18,8 @@ public:
         const vk::raii::Sampler& nearest;
     };
 
-    /// Room for `maxLights` lights; `irradianceUsage` is what the effect wants of the irradiance image.
-    Lighting(Gpu& gpu, const Inputs& inputs, std::size_t maxLights, vk::ImageUsageFlags irradianceUsage,
+    /// Room for `mostLights` lights; `irradianceUsage` is what the effect wants of the irradiance image.
+    Lighting(Gpu& gpu, const Inputs& inputs, std::size_t mostLights, vk::ImageUsageFlags irradianceUsage,
              std::uint32_t framesInFlight);
 
     /// Diffuse light without albedo and specular: diffuse radiance = albedo / π · irradiance. RGBA16F.

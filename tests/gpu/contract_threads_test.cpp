@@ -34,6 +34,8 @@ struct Worker {
     void work(std::mutex& queue, int frames) {
         NacreContextInfo info = gpu.contextInfo({32, 16});
         info.techniques = 1u << NACRE_TECHNIQUE_SEPARABLE;
+        info.getInstanceProcAddr =
+            vkGetInstanceProcAddr; // nothing may order the threads, such as what shares pipelines
         Effect effect(gpu, info);
         images.info.technique = NACRE_TECHNIQUE_SEPARABLE;
         for (int i = 0; i < frames; ++i) {

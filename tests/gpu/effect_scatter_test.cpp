@@ -197,8 +197,8 @@ TEST_P(ScatterTest, CostDoesNotDependOnMaterialsOrLayers) {
     }
     NacreContextInfo info = contextInfo(input.extent);
     info.getInstanceProcAddr = countingGetInstanceProcAddr;
+    Effect effect(gpu, info);
     for (const std::span<const Material> materials : sets) {
-        Effect effect(gpu, info);
         effect.setMaterials(materials);
         NacreCost cost{};
         ASSERT_EQ(nacreGetScatterCost(effect.context, GetParam(), &cost), NACRE_SUCCESS);

@@ -39,10 +39,12 @@ renderer::RenderSettings effectSettings() {
 void expectSlabTransmission(const scene::Light& light, float arriving) {
     const Material material = layered(0.5);
     const auto profile = makeProfile(material);
+    renderer::RenderSettings settings = effectSettings();
+    settings.technique = NACRE_TECHNIQUE_SEPARABLE; // what is scattered is not looked at, and bank takes long to make
     for (const float thickness : {1.0f, 2.0f, 4.0f, 8.0f}) {
         scene::Scene scene = slab(thickness, material);
         scene.lights.push_back(light);
-        const Pixels transmitted = render(scene, effectSettings()).read(Output::Transmitted);
+        const Pixels transmitted = render(scene, settings).read(Output::Transmitted);
         for (int channel = 0; channel < 3; ++channel) {
             const float expected = 0.5f * arriving * static_cast<float>(profile->slabTransmittance(channel, thickness));
             EXPECT_NEAR(at(transmitted, 80, 45, static_cast<std::size_t>(channel)), expected, 0.02f * expected)

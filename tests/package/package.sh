@@ -2,7 +2,7 @@
 # package.sh SOURCE COMPARE_PICTURES: everything a user of the library does, in a directory outside of the source tree and
 # with an empty environment: docs/integration.md from top to bottom, then programs that find the library by find_package,
 # add_subdirectory and pkg-config, static and shared. The library is compiled twice: for the document, optimised, and for
-# add_subdirectory, not optimised.
+# add_subdirectory, not optimised, and in few files.
 set -euo pipefail
 source_directory=$(realpath "$1")
 compare_pictures=$(realpath "$2")
@@ -15,9 +15,11 @@ ln -s "$source_directory" nacre
 
 say() { printf '\n== %s ==\n' "$*"; }
 
-# Runs a command that knows of nothing but the system; compiler launchers (ccache) pass.
+# Runs a command that knows of nothing but the system; compiler launchers (ccache) pass, and what Mesa has compiled of
+# shaders: other tests have the same ones.
+shader_cache=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}}
 clean() {
-    env -i PATH=/usr/local/bin:/usr/bin:/bin HOME="$work" CMAKE_GENERATOR=Ninja \
+    env -i PATH=/usr/local/bin:/usr/bin:/bin HOME="$work" CMAKE_GENERATOR=Ninja MESA_SHADER_CACHE_DIR="$shader_cache" \
         VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation \
         VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT \
         ${VK_DRIVER_FILES:+VK_DRIVER_FILES="$VK_DRIVER_FILES"} ${VK_ICD_FILENAMES:+VK_ICD_FILENAMES="$VK_ICD_FILENAMES"} \

@@ -18,6 +18,14 @@ struct Slope {
     double y = 0;
 };
 
+// What a pixel shows of its surface.
+struct Patch {
+    Vector3<double> middle{};
+    Vector3<double> stepX{}; // how the point that its ray meets moves from one pixel to the next, mm
+    Vector3<double> stepY{};
+    double area = 0; // mm²
+};
+
 // The profile in a table over √r, where even Burley's pole at 0 is tame enough for linear interpolation.
 class RadialTable {
 public:
@@ -31,6 +39,9 @@ public:
     }
     double reach() const { return reach_; }
     Rgb at(double squaredDistance) const {
+        if (squaredDistance >= reach_ * reach_) { // without a root: most of what is asked for lies outside
+            return {};
+        }
         const double position = std::sqrt(std::sqrt(squaredDistance) / reach_) * size;
         const int i = static_cast<int>(position);
         if (i >= size) {
@@ -59,7 +70,7 @@ public:
         }
         for (int y = 0; y < scene.height; ++y) {
             for (int x = 0; x < scene.width; ++x) {
-                slopes_.push_back(settings.patchesOfBrute ? patchSlope(x, y) : slope(x, y));
+                patches_.push_back(patch(x, y, settings.patchesOfBrute ? patchSlope(x, y) : slope(x, y)));
             }
         }
     }
@@ -140,29 +151,23 @@ private:
         return {scale * patch.x, scale * patch.y};
     }
 
-    std::array<double, 3> position(double x, double y, double z) const {
+    Vector3<double> position(double x, double y, double z) const {
         const double scale = z / scene_.focalLength;
         return {(x + 0.5 - 0.5 * scene_.width) * scale, (y + 0.5 - 0.5 * scene_.height) * scale, z};
     }
 
-    // How the point that a pixel's ray meets on its patch moves from one pixel to the next in x and in y, mm.
-    std::pair<Vector3<double>, Vector3<double>> steps(std::size_t q) const {
-        const int x = static_cast<int>(q % scene_.width);
-        const int y = static_cast<int>(q / scene_.width);
-        const double perPixel = scene_.depth[q] / scene_.focalLength;
+    Patch patch(int x, int y, const Slope& slope) const {
+        const double z = scene_.depth[scene_.index(x, y)];
+        const double perPixel = z / scene_.focalLength;
         const double rayX = (x + 0.5 - 0.5 * scene_.width) / scene_.focalLength;
         const double rayY = (y + 0.5 - 0.5 * scene_.height) / scene_.focalLength;
-        const Slope& slope = slopes_[q];
-        return {{perPixel + rayX * slope.x, rayY * slope.x, slope.x},
-                {rayX * slope.y, perPixel + rayY * slope.y, slope.y}};
-    }
-
-    // Area of surface a pixel shows, mm²: of the parallelogram between the steps.
-    double area(std::size_t q) const {
-        const double perPixel = scene_.depth[q] / scene_.focalLength;
-        const auto [stepX, stepY] = steps(q);
-        const Vector3<double> normal = cross(stepX, stepY);
-        return std::min(std::sqrt(dot(normal, normal)), perPixel * perPixel / leastFacing);
+        Patch patch{.middle = position(x, y, z),
+                    .stepX = {perPixel + rayX * slope.x, rayY * slope.x, slope.x},
+                    .stepY = {rayX * slope.y, perPixel + rayY * slope.y, slope.y}};
+        // Of the parallelogram between the steps.
+        const Vector3<double> normal = cross(patch.stepX, patch.stepY);
+        patch.area = std::min(std::sqrt(dot(normal, normal)), perPixel * perPixel / leastFacing);
+        return patch;
     }
 
     // Points along one side of a pixel's patch: more where it is longer than a pixel is wide.
@@ -173,12 +178,11 @@ private:
 
     Rgb share(const RadialTable& table, int x, int y, int qx, int qy) const {
         const std::size_t q = scene_.index(qx, qy);
-        const auto from = position(x, y, scene_.depth[scene_.index(x, y)]);
-        const auto middle = position(qx, qy, scene_.depth[q]);
+        const Vector3<double>& from = patches_[scene_.index(x, y)].middle;
+        const Patch& patch = patches_[q];
         const bool near = std::max(std::abs(qx - x), std::abs(qy - y)) <= settings_.nearField;
-        const auto [stepX, stepY] = steps(q);
-        const int countX = near ? pointsAlong(stepX, q) : 1;
-        const int countY = near ? pointsAlong(stepY, q) : 1;
+        const int countX = near ? pointsAlong(patch.stepX, q) : 1;
+        const int countY = near ? pointsAlong(patch.stepY, q) : 1;
         Rgb sum{};
         for (int j = 0; j < countY; ++j) {
             for (int i = 0; i < countX; ++i) {
@@ -186,7 +190,8 @@ private:
                 const double dy = (j + 0.5) / countY - 0.5;
                 double squared = 0;
                 for (int axis = 0; axis < 3; ++axis) {
-                    const double offset = middle[axis] + dx * stepX[axis] + dy * stepY[axis] - from[axis];
+                    const double offset =
+                        patch.middle[axis] + dx * patch.stepX[axis] + dy * patch.stepY[axis] - from[axis];
                     squared += offset * offset;
                 }
                 const Rgb value = table.at(squared);
@@ -195,7 +200,7 @@ private:
                 }
             }
         }
-        const double scale = area(q) / (countX * countY);
+        const double scale = patch.area / (countX * countY);
         return {sum[0] * scale, sum[1] * scale, sum[2] * scale};
     }
 
@@ -206,7 +211,8 @@ private:
         Rgb sum{};
         double angleSum = 0;
         // Angles are taken on the surface: a step (u, v) px on the screen is the vector u·t₁ + v·t₂ in space.
-        const auto [stepX, stepY] = steps(q);
+        const Vector3<double>& stepX = patches_[q].stepX;
+        const Vector3<double>& stepY = patches_[q].stepY;
         const double t11 = dot(stepX, stepX);
         const double t22 = dot(stepY, stepY);
         const double t12 = dot(stepX, stepY);
@@ -229,7 +235,7 @@ private:
     const ScatterScene& scene_;
     const ScatterReferenceSettings& settings_;
     std::vector<RadialTable> tables_;
-    std::vector<Slope> slopes_;
+    std::vector<Patch> patches_;
 };
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "tests/gpu/support/headless_gpu.hpp"
 
+#include "tests/gpu/support/shared_pipelines.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -189,6 +191,7 @@ Gpu::Gpu(bool validation) {
 }
 
 Gpu::~Gpu() {
+    destroySharedPipelines(device);
     vkDestroyCommandPool(device, commandPool, nullptr);
     vkDestroyDevice(device, nullptr);
     if (messenger_ != VK_NULL_HANDLE) {
@@ -403,7 +406,7 @@ NacreContextInfo Gpu::contextInfo(VkExtent2D maxExtent) const {
     info.instance = vkInstance;
     info.physicalDevice = physicalDevice;
     info.device = device;
-    info.getInstanceProcAddr = vkGetInstanceProcAddr;
+    info.getInstanceProcAddr = sharingGetInstanceProcAddr;
     info.maxExtent = maxExtent;
     return info;
 }

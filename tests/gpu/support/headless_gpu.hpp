@@ -97,7 +97,7 @@ public:
 
     /// The first of these memory types with these properties; throws where there is none.
     std::uint32_t memoryType(std::uint32_t bits, VkMemoryPropertyFlags wanted) const;
-    /// A context's info with this device filled in.
+    /// A context's info with this device filled in. Its contexts share pipelines, see sharingGetInstanceProcAddr.
     NacreContextInfo contextInfo(VkExtent2D maxExtent) const;
 
     VkInstance vkInstance = VK_NULL_HANDLE;
