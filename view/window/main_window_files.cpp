@@ -75,7 +75,7 @@ bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scen
         return false;
     }
     if (file.isEmpty()) {
-        statusBar()->showMessage("Ctrl+O opens a model, or drop one here. Then choose a preset. ? lists all keys.");
+        note("Ctrl+O opens a model, or drop one here. Then choose a preset. ? lists all keys.");
     } else {
         rememberRecent(file);
     }

@@ -95,7 +95,7 @@ void MainWindow::makePanels() {
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     connect(findChild<QDockWidget*>("dock.light"), &QDockWidget::visibilityChanged, this, &MainWindow::showLights);
     panels_.front().dock->raise();
-    constexpr int width = 400; // px: the rest is the picture's
+    constexpr int width = 460; // px: that of its tabs; the rest is the picture's
     resizeDocks({panels_.front().dock}, {width}, Qt::Horizontal);
 }
 
