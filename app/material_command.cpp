@@ -76,6 +76,13 @@ std::string describeTransmission(const Material& material) {
     return material.diffuseTransmission > 0 ? ", diffuse transmission " + number(material.diffuseTransmission) : "";
 }
 
+/// What a reflection with two lobes has besides.
+std::string describeSecondLobe(const Material& material) {
+    return material.secondLobe > 0 ? ", second lobe " + number(material.secondLobe) + " of roughness × " +
+                                         number(material.secondLobeRoughness)
+                                   : "";
+}
+
 std::string describeMaterial(const Material& material) {
     std::ostringstream text;
     text << printable(material.name) << ": " << printable(material.description) << '\n'
@@ -83,7 +90,7 @@ std::string describeMaterial(const Material& material) {
          << describeTransmission(material) << ", scale " << material.scale << ", albedo use "
          << (material.albedoUse == AlbedoUse::Post ? "post" : "preAndPost") << ", second surfaces "
          << (asksForSecondSurfaces(material) ? "yes" : "no") << ", roughness " << material.roughness << ", specular "
-         << material.specular << '\n'
+         << material.specular << describeSecondLobe(material) << '\n'
          << rgbHeader();
     return text.str() + rgbRow("albedo", material.albedo) + describeLayers(material) + describeProfile(material);
 }

@@ -1,6 +1,7 @@
 // `nacre view`: a window to build materials in.
 #include "app/command.hpp"
 #include "app/render_scene.hpp"
+#include "app/view_report.hpp"
 #include "view/loop/headless.hpp"
 
 #ifdef NACRE_HAS_WINDOW
@@ -12,6 +13,7 @@
 #include <charconv>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace nacre::app {
@@ -25,7 +27,9 @@ struct ViewOptions : SceneOptions {
     std::filesystem::path script;
     bool headless = false;
     std::string frames;
-    std::uint32_t turntable = 0; ///< 0: none
+    std::uint32_t turntable = 0;       ///< 0: none
+    std::optional<std::string> moving; ///< of movingName
+    std::filesystem::path json;
     std::filesystem::path output;
     std::uint32_t shadowMapSize = 2048;
 };
@@ -48,17 +52,37 @@ void failOnMessages(const renderer::Device& device) {
 }
 
 void runHeadless(const ViewOptions& options) {
+    using nacre::view::Moving;
     nacre::view::HeadlessSettings settings;
     settings.width = options.width;
     settings.height = options.height;
     settings.shadowMapSize = options.shadowMapSize;
     settings.frames = options.frames.empty() ? settings.frames : parseFrame(options.frames);
     requireRange(settings.frames, 2, mostFrames, "--frames");
+    if (!options.json.empty()) {
+        checkWritable(options.json);
+    }
     renderer::Device device(options.device);
     scene::Scene scene = makeScene(options);
     scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
-    nacre::view::printHeadless(std::cout, device, scene, settings);
+    const bool toTerminal = options.json != "-";
+    if (toTerminal) {
+        std::cout << settings.width << 'x' << settings.height << ", " << settings.frames << " frames on "
+                  << device.description().name << ", ms\n";
+    }
+    std::vector<NamedRun> runs;
+    for (const Moving moving : {Moving::Nothing, Moving::Lights, Moving::Material}) {
+        if (!options.moving || *options.moving == movingName(moving)) {
+            runs.push_back({moving, nacre::view::runHeadless(device, scene, settings, moving)});
+            if (toTerminal) {
+                printRun(std::cout, runs.back());
+            }
+        }
+    }
     failOnMessages(device);
+    if (!options.json.empty()) {
+        writeText(options.json, makeReport(device.description(), settings, runs));
+    }
 }
 
 /// "A:B", both of them drawn; without it all frames.
@@ -143,6 +167,10 @@ void addView(CLI::App& app) {
     add("--script", options->script, "Drive the window by the steps of this file, then end", "FILE.json");
     command->add_flag("--headless", options->headless, "No window: draw frames and say what they take");
     add("--frames", options->frames, "Of --headless how many, default 120; of --turntable which: FIRST:LAST", "N|A:B");
+    add("--moving", options->moving, "Of --headless: draw frames with this changing alone; default one run of each",
+        "nothing|lights|material");
+    command->get_option("--moving")->check(CLI::IsMember({"nothing", "lights", "material"}));
+    add("--json", options->json, "Of --headless: what frames took and what was allocated, as JSON", "FILE");
     add("--turntable", options->turntable, "No window: N pictures from around the scene", "N");
     add("-o,--output", options->output, "The folder for a turntable's pictures", "DIR");
     add("--shadow-map-size", options->shadowMapSize, "Texels a side, without a window; default 2048", "N");

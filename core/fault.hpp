@@ -46,5 +46,6 @@ inline constexpr Range varianceRange{0, 4e9, " mm²"};
 inline constexpr Range meanFreePathRange{1e-6f, 1e4, " mm"};
 inline constexpr Range scaleRange{1e-6f, 1e4, ""};
 inline constexpr Range unitRange{0, 1, ""};
+inline constexpr Range lobeRoughnessRange{0, 4, ""};
 
 } // namespace nacre

@@ -83,11 +83,16 @@ std::string findFault(const Material& material) {
                   {"translucency", material.translucency},
                   {"diffuseTransmission", material.diffuseTransmission},
                   {"roughness", material.roughness},
-                  {"specular", material.specular}};
+                  {"specular", material.specular},
+                  {"secondLobe", material.secondLobe}};
     for (const auto& share : shares) {
         if (auto fault = findFault(share.field, share.value, unitRange); !fault.empty()) {
             return fault;
         }
+    }
+    if (auto fault = findFault("secondLobeRoughness", material.secondLobeRoughness, lobeRoughnessRange);
+        !fault.empty()) {
+        return fault;
     }
     if (auto fault = findFault("albedo", material.albedo, unitRange); !fault.empty()) {
         return fault;

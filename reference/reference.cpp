@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double sliceSeconds = 0.33;
+constexpr double firstSliceSamples = 64;  ///< until it is known what a sample takes
 constexpr std::uint32_t passSamples = 16; ///< most samples a pixel between two looks at the noise
 constexpr std::uint32_t maxSpp = std::numeric_limits<std::uint32_t>::max() - passSamples;
 
@@ -194,7 +194,7 @@ Stopped Reference::run(const Stop& stop, const std::function<bool(const Progress
     const std::uint32_t last = stop.spp.value_or(maxSpp);
     const double secondsBefore = self.film.seconds;
     const Clock::time_point start = Clock::now();
-    std::size_t sliceSize = 64;
+    double sliceSamples = firstSliceSamples;
     double added = 0;
     Progress progress;
     progress.spp = self.completeSpp();
@@ -210,14 +210,16 @@ Stopped Reference::run(const Stop& stop, const std::function<bool(const Progress
         const std::uint32_t target = std::min(nextLook(progress.spp), last);
         for (std::size_t first = 0; first < self.pixels.size();) {
             const Clock::time_point sliceStart = Clock::now();
-            const std::size_t count = std::min(sliceSize, self.pixels.size() - first);
+            const std::uint32_t samples = target - progress.spp; // of each pixel
+            const auto count =
+                std::min(static_cast<std::size_t>(std::ceil(sliceSamples / samples)), self.pixels.size() - first);
             self.addSlice(std::span(self.pixels).subspan(first, count), target);
             first += count;
             const double seconds = std::max(secondsSince(sliceStart), 1e-6);
-            sliceSize = static_cast<std::size_t>(std::clamp(static_cast<double>(count) * sliceSeconds / seconds, 64.0,
-                                                            4.0 * static_cast<double>(count) + 64));
-            const double sppOfSlice =
-                (target - progress.spp) * static_cast<double>(count) / static_cast<double>(self.pixels.size());
+            const double drawn = static_cast<double>(count) * samples;
+            sliceSamples = std::clamp(drawn * self.settings.sliceSeconds / seconds, firstSliceSamples,
+                                      4 * drawn + firstSliceSamples);
+            const double sppOfSlice = drawn / static_cast<double>(self.pixels.size());
             added += sppOfSlice;
             progress.sppNow += sppOfSlice;
             progress.seconds = secondsSince(start);

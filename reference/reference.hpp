@@ -39,6 +39,9 @@ struct Settings {
     /// Irradiance as a renderer has it, see EntryLight.
     std::optional<nacre::Image> direct;
     unsigned threads = 0; ///< 0 = all cores
+    /// [> 0] s, about, of a slice of work. Between slices `run` asks whether to proceed; shorter ones use the cores
+    /// less well.
+    double sliceSeconds = 0.33;
 };
 
 /// When to stop: at what comes first.
@@ -50,7 +53,7 @@ struct Stop {
 
 enum class Stopped { Spp, Seconds, Noise, Interrupted };
 
-/// How far it is, told between slices of work of about a third of a second.
+/// How far it is, told between slices of work (Settings::sliceSeconds).
 struct Progress {
     std::uint32_t spp = 0; ///< complete in every pixel
     double sppNow = 0;     ///< with the part of the next ones that is done

@@ -32,6 +32,18 @@ void recordBarrierBefore(const vk::raii::CommandBuffer& commandBuffer) {
                   Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite);
 }
 
+/// AccumulateConstants::range.y
+float rangeEnd(const SampleLook& look) {
+    switch (look.image) {
+    case ShownImage::Thickness:
+        return look.thicknessRange;
+    case ShownImage::Regions:
+        return look.separation;
+    default:
+        return look.depthRange.y;
+    }
+}
+
 /// The value of one channel between pixels.
 float between(const nacre::Image& image, double x, double y, std::size_t channel) {
     const auto column = static_cast<std::uint32_t>(std::clamp(x, 0.0, image.width - 1.0));
@@ -120,8 +132,7 @@ void Accumulation::recordSample(const vk::raii::CommandBuffer& commandBuffer, st
         .size = {extent.width, extent.height, firstPixel(side), static_cast<std::uint32_t>(look.backdrop)},
         .effect = {use.scatter ? 1u : 0u, use.scatteredHasAlbedo ? 1u : 0u, use.transmit ? 1u : 0u,
                    static_cast<std::uint32_t>(look.curve)},
-        .range = {look.depthRange.x, look.image == ShownImage::Thickness ? look.thicknessRange : look.depthRange.y,
-                  look.exposure, look.pixelScale}};
+        .range = {look.depthRange.x, rangeEnd(look), look.exposure, look.pixelScale}};
     recordBarrierBefore(commandBuffer);
     passes_[pass].record(commandBuffer, frame, extent, bytesOf(constants));
     ++target.samples;

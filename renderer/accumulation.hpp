@@ -26,6 +26,7 @@ enum class ShownImage {
     Material,
     Footprint, ///< px that light travels, false colours
     ShadowMap, ///< one layer of the shadow maps: white is near
+    Regions,   ///< what technique `bank` combines by its smooth pipeline, blue, and by its edge pipeline, orange
     Given      ///< no frame's, but the picture of setGiven
 };
 
@@ -48,8 +49,10 @@ struct SampleLook {
     Backdrop backdrop = Backdrop::Surroundings;
     std::uint32_t shadowLayer = 0; ///< of ShownImage::ShadowMap
     /// ShownImage::Footprint: px per mm at a depth of 1 scene unit; negative: at every depth, as a parallel projection
-    /// has it.
+    /// has it. ShownImage::Regions: the width of a pixel there, scene units.
     float pixelScale = 1;
+    /// ShownImage::Regions: how many texel widths two surfaces are apart. 6 for `bank`, 2 for `bank-surfaces`.
+    float separation = 6;
     bool operator==(const SampleLook&) const = default;
 };
 

@@ -245,7 +245,7 @@ void Frame::Implementation::record(const vk::raii::CommandBuffer& commandBuffer,
         pass("G-buffer", [&] { picture->gbuffer.record(commandBuffer, frame, scene, view); });
         pass("ambient occlusion",
              [&] { picture->occlusion.record(commandBuffer, frame, occlusionRadius * sceneBounds.radius()); });
-        pass("lighting", [&] { picture->lighting.record(commandBuffer, frame, lights.constants); });
+        pass("lighting", [&] { picture->lighting.record(commandBuffer, frame, lights.constants, subsurface.lobes()); });
         recordEffectOnce(commandBuffer, frame, view);
         pass("compose", [&] { picture->compose.recordRadiance(commandBuffer, frame, look()); });
         pass("tone map", [&] { picture->compose.recordColor(commandBuffer, frame, look()); });

@@ -30,7 +30,6 @@ constexpr float largestHalfAngle = 75 * std::numbers::pi_v<float> / 180;
 constexpr float nearToRange = 1e-8f;
 
 using Body = LightPlacement::Body;
-using Interval = LightPlacement::Interval;
 
 std::vector<glm::vec3> worldPoints(const scene::Scene& scene, const scene::Instance& instance) {
     std::vector<glm::vec3> points;
@@ -43,10 +42,7 @@ std::vector<glm::vec3> worldPoints(const scene::Scene& scene, const scene::Insta
 Interval extent(const std::vector<const Body*>& bodies, const glm::vec3& axis) {
     Interval result{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
     for (const Body* body : bodies) {
-        for (const glm::vec3& point : body->points) {
-            const float value = glm::dot(axis, point);
-            result = {std::min(result.low, value), std::max(result.high, value)};
-        }
+        result = body->points.extend(result, axis);
     }
     return result;
 }
@@ -182,9 +178,7 @@ constexpr std::array<std::array<glm::vec3, 3>, 6> cubeFaces{{{{{0, 0, -1}, {0, -
 float reach(std::span<const Body> bodies, const glm::vec3& position) {
     float farthest = 0;
     for (const Body& body : bodies) {
-        for (const glm::vec3& point : body.points) {
-            farthest = std::max(farthest, glm::distance(point, position));
-        }
+        farthest = body.points.farthest(farthest, position);
     }
     return std::max(1.01f * farthest, 1e-6f);
 }
@@ -270,9 +264,11 @@ LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMa
     : metersPerUnit_(static_cast<float>(scene.metersPerUnit)),
       margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
     for (const scene::Instance& instance : scene.instances) {
-        Body body{.points = worldPoints(scene, instance)};
+        std::vector<glm::vec3> points = worldPoints(scene, instance);
+        Body body;
         body.shinesThrough = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material != scene::none;
-        body.normal = anyNormal(body.points);
+        body.normal = anyNormal(points);
+        body.points = PointClusters(std::move(points));
         bodies_.push_back(std::move(body));
     }
     const std::vector<const Body*> all = pointers(bodies_);

@@ -3,6 +3,7 @@
 
 #include "nacre/nacre.h"
 #include "renderer/passes/shader_types.h"
+#include "renderer/point_clusters.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/glm.hpp>
@@ -36,15 +37,9 @@ public:
     void place(std::span<const scene::Light> lights);
     const LightSet& placed() const { return set_; }
 
-    struct Interval {
-        float low;
-        float high;
-        float length() const { return high - low; }
-        float center() const { return 0.5f * (low + high); }
-    };
     /// The vertices of an instance in world space, and what they are along its first triangle's normal.
     struct Body {
-        std::vector<glm::vec3> points;
+        PointClusters points;
         glm::vec3 normal{0};        ///< zero where no triangle has an area
         Interval own{};             ///< along the normal
         Interval all{};             ///< the whole scene along it

@@ -50,7 +50,8 @@ PicturePasses::PicturePasses(Gpu& gpu, const Inputs& inputs, const RenderSetting
                        [&] {
                            return Lighting(gpu,
                                            {gbuffer, occlusion, inputs.shadowMaps, inputs.environment, inputs.nearest},
-                                           limits.lights, effectUsage(NACRE_IMAGE_IRRADIANCE), limits.framesInFlight);
+                                           limits.lights, limits.materials, effectUsage(NACRE_IMAGE_IRRADIANCE),
+                                           limits.framesInFlight);
                        })),
       subsurface(
           metered(gpu, memory, "effect: outputs", [&] { return SubsurfaceImages(gpu, extent, settings.thickness); })),

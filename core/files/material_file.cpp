@@ -282,6 +282,8 @@ template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& m
     visit("albedo", material.albedo);
     visit("roughness", material.roughness);
     visit("specular", material.specular);
+    visit("secondLobe", material.secondLobe);
+    visit("secondLobeRoughness", material.secondLobeRoughness);
 }
 
 Json format(AlbedoUse use) {

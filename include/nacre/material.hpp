@@ -52,6 +52,12 @@ struct Material {
     Rgb albedo{0.8, 0.8, 0.8};
     double roughness = 0.5; ///< [0, 1] GGX perceptual roughness
     double specular = 0.5;  ///< [0, 1] F0 = 0.08·specular; 0.5 is an index of refraction of 1.5
+    /// [0, 1] share of the specular reflection that a second lobe has, as skin's oil and its pores make one: the whole
+    /// is (1 − secondLobe) · first + secondLobe · second. 0 = one lobe. Unreal Engine's Lobe Mix.
+    double secondLobe = 0;
+    /// [0, 4] multiplies the roughness, textured or not, for the second lobe; the product counts as at most 1. In
+    /// Unreal Engine's terms Roughness 1 / Roughness 0.
+    double secondLobeRoughness = 1;
 
     bool operator==(const Material&) const = default;
 };

@@ -29,6 +29,8 @@ layout(push_constant) uniform Push {
     AccumulateConstants constants;
 };
 
+#include "bank_regions.glsl"
+
 const float pi = 3.14159265358979;
 
 /// Colours of ids, far apart in hue.
@@ -96,6 +98,10 @@ vec3 lightOf(ivec2 pixel, uint index) {
         return vec3(footprint(pixel, material));
     case shownShadowMap:
         return vec3(shadowMapAt(pixel));
+    case shownRegions: {
+        vec3 exposed = texelFetch(radianceImage, pixel, 0).rgb * constants.range.z;
+        return regionColor(pixel, 0.45 * clamp(dot(exposed, vec3(1.0 / 3.0)), 0.0, 1.0));
+    }
     }
     return given[index].rgb;
 }
@@ -114,6 +120,9 @@ vec3 shown(vec3 light) {
 }
 
 void main() {
+    if (constants.image.x == shownRegions) {
+        classifyRegion();
+    }
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, constants.size.xy))) {
         return;

@@ -29,6 +29,9 @@ layout(set = 0, binding = 11) uniform samplerCube specularEnvironment;
 layout(set = 0, binding = 12) uniform sampler2D reflectanceImage;
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D outIrradiance;
 layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D outSpecular;
+layout(set = 0, binding = 15, std430) readonly buffer Lobes {
+    LobeConstants lobes[]; // by material id
+};
 layout(push_constant) uniform Push {
     uint lightCount;
 };
@@ -45,6 +48,8 @@ struct Surface {
     vec3 toView;
     vec3 f0;
     float alpha;
+    float secondLobe;  ///< its share of the reflection
+    float secondAlpha; ///< of the second lobe
 };
 
 struct Light {
@@ -85,8 +90,12 @@ void addPunctual(inout Light result, Surface surface, LightConstants light) {
     float nDotV = max(dot(surface.normal, surface.toView), 1e-4);
     float nDotH = clamp(dot(surface.normal, halfway), 0.0, 1.0);
     vec3 reflected = fresnel(surface.f0, clamp(dot(surface.toView, halfway), 0.0, 1.0));
-    result.specular += irradiance * reflected * (ggxDistribution(nDotH, surface.alpha) *
-                                                 ggxVisibility(nDotL, nDotV, surface.alpha));
+    float lobe = ggxDistribution(nDotH, surface.alpha) * ggxVisibility(nDotL, nDotV, surface.alpha);
+    if (surface.secondLobe > 0.0) {
+        lobe = mix(lobe, ggxDistribution(nDotH, surface.secondAlpha) * ggxVisibility(nDotL, nDotV, surface.secondAlpha),
+                   surface.secondLobe);
+    }
+    result.specular += irradiance * reflected * lobe;
 }
 
 /// How much of a reflection an ambient occlusion of `visibility` lets through (Lagarde and de Rousiers 2014, "Moving
@@ -95,15 +104,28 @@ float specularVisibility(float nDotV, float visibility, float alpha) {
     return clamp(pow(nDotV + visibility, exp2(-16.0 * alpha - 1.0)) - 1.0 + visibility, 0.0, 1.0);
 }
 
-void addEnvironment(inout Light result, Surface surface, float visibility) {
-    result.diffuse += environmentIrradiance(environment, surface.normal) * visibility;
-    float roughness = sqrt(surface.alpha);
+/// What a lobe reflects of the environment: radiance.
+vec3 environmentReflection(Surface surface, float visibility, float alpha) {
+    float roughness = sqrt(alpha);
     float nDotV = clamp(dot(surface.normal, surface.toView), 1e-4, 1.0);
     vec2 reflectance = textureLod(reflectanceImage, vec2(nDotV, roughness), 0.0).rg;
     vec3 direction = environmentDirection(reflect(-surface.toView, surface.normal), environment.rotation.xy);
     vec3 radiance = textureLod(specularEnvironment, direction, roughness * float(specularLevels - 1u)).rgb;
-    result.specular += radiance * (surface.f0 * reflectance.x + reflectance.y) *
-                       (environment.rotation.z * specularVisibility(nDotV, visibility, surface.alpha));
+    return radiance * (surface.f0 * reflectance.x + reflectance.y) *
+           (environment.rotation.z * specularVisibility(nDotV, visibility, alpha));
+}
+
+void addEnvironment(inout Light result, Surface surface, float visibility) {
+    result.diffuse += environmentIrradiance(environment, surface.normal) * visibility;
+    vec3 reflected = environmentReflection(surface, visibility, surface.alpha);
+    if (surface.secondLobe > 0.0) {
+        reflected = mix(reflected, environmentReflection(surface, visibility, surface.secondAlpha), surface.secondLobe);
+    }
+    result.specular += reflected;
+}
+
+float alphaOf(float roughness) {
+    return max(roughness * roughness, 2e-3);
 }
 
 Light shade(ivec2 pixel, vec4 shadingNormal) {
@@ -114,7 +136,10 @@ Light shade(ivec2 pixel, vec4 shadingNormal) {
     surface.vertexNormal = normalize(texelFetch(vertexNormalImage, pixel, 0).xyz);
     surface.toView = -viewDirection(pixel);
     surface.f0 = reflection.rgb;
-    surface.alpha = max(reflection.a * reflection.a, 2e-3);
+    surface.alpha = alphaOf(reflection.a);
+    vec4 second = lobes[texelFetch(materialIdImage, pixel, 0).r].second;
+    surface.secondLobe = second.x;
+    surface.secondAlpha = alphaOf(min(reflection.a * second.y, 1.0));
     Light result = Light(vec3(0.0), vec3(0.0));
     for (uint i = 0u; i < lightCount; ++i) {
         addPunctual(result, surface, lights[i]);

@@ -18,16 +18,17 @@ public:
         const vk::raii::Sampler& nearest;
     };
 
-    /// Room for `mostLights` lights; `irradianceUsage` is what the effect wants of the irradiance image.
-    Lighting(Gpu& gpu, const Inputs& inputs, std::size_t mostLights, vk::ImageUsageFlags irradianceUsage,
-             std::uint32_t framesInFlight);
+    /// Room for `mostLights` lights and `maxMaterials` materials; `irradianceUsage` is what the effect wants of the
+    /// irradiance image.
+    Lighting(Gpu& gpu, const Inputs& inputs, std::size_t mostLights, std::size_t maxMaterials,
+             vk::ImageUsageFlags irradianceUsage, std::uint32_t framesInFlight);
 
     /// Diffuse light without albedo and specular: diffuse radiance = albedo / π · irradiance. RGBA16F.
     Image& irradiance() { return irradiance_; }
     /// Specular radiance. RGBA16F.
     Image& specular() { return specular_; }
     void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
-                std::span<const shared::LightConstants> lights);
+                std::span<const shared::LightConstants> lights, std::span<const shared::LobeConstants> lobes);
     /// Pixels with a subsurface material in the last frame of this number, which must have finished.
     std::uint32_t subsurfacePixels(std::uint32_t frame) const;
     template <typename Action> void forEachImage(const Action& action) {
@@ -39,6 +40,7 @@ private:
     Image irradiance_;
     Image specular_;
     FrameBuffer lights_;
+    FrameBuffer lobes_; ///< by material id
     FrameBuffer coverage_;
     ComputePass pass_;
 };

@@ -86,6 +86,11 @@ struct TransmissionConstants {
     vec4 through[throughSteps + 1]; ///< transmittance of a slab of y / (y + thickness) · throughSteps, times translucency
 };
 
+/// A material's second specular lobe.
+struct LobeConstants {
+    vec4 second; ///< x: its share of the reflection, 0 = there is none; y: its roughness over the first's
+};
+
 /// The environment's diffuse irradiance: nine spherical harmonics, cosine lobe folded in.
 struct EnvironmentConstants {
     vec4 irradiance[9];
@@ -106,7 +111,8 @@ NACRE_CONSTANT shownThickness = 9;
 NACRE_CONSTANT shownMaterial = 10;
 NACRE_CONSTANT shownFootprint = 11;
 NACRE_CONSTANT shownShadowMap = 12;
-NACRE_CONSTANT shownGiven = 13;
+NACRE_CONSTANT shownRegions = 13;
+NACRE_CONSTANT shownGiven = 14;
 
 /// AccumulateConstants::size.w, as Backdrop.
 NACRE_CONSTANT backdropSurroundings = 0;
@@ -126,7 +132,8 @@ struct AccumulateConstants {
     uvec4 size;   ///< x, y: pixels, z: the side's first pixel among all, w: backdrop
     uvec4 effect; ///< x: scatter, y: scattered has albedo, z: transmit, w: tone curve
     vec4 range;   ///< x, y: values at the ends of depth and thickness, z: exposure, w: px per mm at a depth of 1;
-                  ///< negative: at all depths
+                  ///< negative: at all depths. Of regions: y: SampleLook::separation, w: the width of a pixel at a depth
+                  ///< of 1, likewise
 };
 
 /// A mark on top of the picture: a disc, and a line from it.

@@ -62,6 +62,10 @@ shared::TransmissionConstants makeTransmission(const Material& material) {
     return result;
 }
 
+shared::LobeConstants makeLobe(const Material& material) {
+    return {glm::vec4(material.secondLobe, material.secondLobeRoughness, 0, 0)};
+}
+
 Image makeOutput(Gpu& gpu, const char* name, vk::Format format, vk::Extent2D extent, NacreImageSlot slot) {
     using Kind = vk::ImageUsageFlagBits;
     return {gpu, ImageInfo{.name = name,
@@ -117,6 +121,7 @@ void Subsurface::createContext(std::uint32_t techniques) {
     context_.reset(context);
     techniques_ = techniques;
     transmissions_.resize(materials_.size() + 1);
+    lobes_.resize(materials_.size() + 1);
     for (std::size_t i = 0; i < materials_.size(); ++i) {
         setMaterial(i, materials_[i]);
     }
@@ -145,6 +150,7 @@ void Subsurface::setMaterial(std::size_t index, const Material& material) {
     const NacreMaterial converted = effectMaterial(material, layers);
     check(nacreSetMaterials(context_.get(), static_cast<std::uint32_t>(index) + 1, 1, &converted));
     transmissions_[index + 1] = makeTransmission(material);
+    lobes_[index + 1] = makeLobe(material);
 }
 
 NacreView Subsurface::makeView(const View& view) const {

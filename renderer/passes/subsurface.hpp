@@ -51,6 +51,8 @@ public:
     bool scatteredHasAlbedo() const;
     /// By material id, for compose.
     std::span<const shared::TransmissionConstants> transmissions() const { return transmissions_; }
+    /// By material id, as transmissions.
+    std::span<const shared::LobeConstants> lobes() const { return lobes_; }
 
     struct Inputs {
         std::uint32_t frame = 0;
@@ -99,6 +101,7 @@ private:
     Info info_;
     std::vector<Material> materials_;
     std::vector<shared::TransmissionConstants> transmissions_;
+    std::vector<shared::LobeConstants> lobes_;
     std::uint32_t techniques_ = 0;             ///< NacreContextInfo::techniques
     std::optional<std::uint32_t> bakedRadius_; ///< of the first material as it is
     std::unique_ptr<std::string> message_;     ///< the effect's last error; its address is known to the context

@@ -37,6 +37,7 @@ struct Device::Implementation {
     std::vector<std::weak_ptr<PipelineRecipe>> pipelines; ///< renderer/vulkan/reloadable_pipeline.hpp
     /// Bytes allocated through Memory (renderer/vulkan/resources.hpp), per heap.
     std::vector<std::uint64_t> allocatedBytes;
+    std::uint64_t allocations = 0; ///< made so, also those that are gone
 
     /// Records with `recorder`, submits and waits.
     void submitAndWait(const std::function<void(const vk::raii::CommandBuffer&)>& recorder);

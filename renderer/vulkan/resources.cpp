@@ -91,6 +91,7 @@ Memory::Memory(Gpu& gpu, const vk::MemoryRequirements& requirements, vk::MemoryP
     }
     counter_ = &used;
     used += bytes_;
+    ++gpu.allocations;
 }
 
 Memory::~Memory() {

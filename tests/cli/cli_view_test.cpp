@@ -1,6 +1,7 @@
 // `nacre view`: frames without a window, turntables, and scripts that drive the window.
 #include "image/image_file.hpp"
 #include "running_nacre.hpp"
+#include "schema.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -77,13 +78,20 @@ protected:
 const Environment offscreen{{"QT_QPA_PLATFORM", "offscreen"}};
 
 TEST_F(ViewTest, HeadlessSaysWhatFramesTakeWithLightsStillAndMoving) {
-    const Outcome outcome =
-        run({"view", "cube.obj", "--headless", "--frames", "3", "--size", "32x18", "--shadow-map-size", "64"});
+    const Outcome outcome = run({"view", "cube.obj", "--material", "skin", "--headless", "--frames", "3", "--size",
+                                 "32x18", "--shadow-map-size", "64", "--json", "frames.json"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
     for (const char* part :
-         {"32x18, 3 frames", "lights still", "lights moving", "material changing", "growth of memory",
+         {"32x18, 3 frames", "lights still", "lights moving", "material changing", "device allocations",
           "scatter and transmit, device", "frame, processor", "p99", "G-buffer"}) {
         EXPECT_NE(outcome.output.find(part), std::string::npos) << part << "\n" << outcome.output;
+    }
+    nacre::test::expectMatchesSchema(bytes("frames.json"), "view.schema.json");
+    const Json report = Json::parse(bytes("frames.json"));
+    ASSERT_EQ(report.at("runs").size(), 3u);
+    for (const Json& run : report.at("runs")) {
+        EXPECT_EQ(run.at("deviceAllocations"), 0) << run;
+        EXPECT_EQ(run.at("waits"), 0) << run;
     }
 }
 
@@ -125,6 +133,7 @@ TEST_F(ViewTest, AScriptEditsUndoesSavesAndLoads) {
                                        {{"loadMaterial", "scaled.json"}},
                                        {{"wait", true}},
                                        {{"picture", "loaded.png"}},
+                                       {{"panel", "Compare"}},
                                        {{"choose", "compare.second"}, {"item", "Effect off"}},
                                        {{"choose", "compare.mode"}, {"item", "A and B, divided"}},
                                        {{"wait", true}},
@@ -143,8 +152,9 @@ TEST_F(ViewTest, AScriptEditsUndoesSavesAndLoads) {
 TEST_F(ViewTest, AFullDiskIsASentence) {
     expectComplaint(runScript({{{"saveMaterial", "/dev/full"}}}, offscreen), 1,
                     {"script.json", "steps[0]", "/dev/full", "No space left"});
-    expectComplaint(runScript({{{"click", "light.remove"}}, {{"saveScene", "/dev/full"}}}, offscreen), 1,
-                    {"script.json", "steps[1]", "/dev/full"});
+    expectComplaint(
+        runScript({{{"panel", "Light"}}, {{"click", "light.remove"}}, {{"saveScene", "/dev/full"}}}, offscreen), 1,
+        {"script.json", "steps[2]", "/dev/full"});
 }
 
 /// The largest difference of two pictures.
@@ -162,6 +172,7 @@ float difference(const std::filesystem::path& one, const std::filesystem::path& 
 /// Angles are in degrees in a scene file, which may change their last bit.
 TEST_F(ViewTest, ASavedSceneIsThePictureAgain) {
     const Outcome outcome = runScript({{{"set", "material.scale"}, {"value", 6}},
+                                       {{"panel", "Light"}},
                                        {{"set", "light.intensity"}, {"value", 9}},
                                        {{"drag", {0.5, 0.6}}, {"to", {0.62, 0.5}}},
                                        {{"saveMaterial", "structs.h"}},
@@ -181,9 +192,34 @@ TEST_F(ViewTest, ASavedSceneIsThePictureAgain) {
     EXPECT_NE(bytes("structs.h").find("static const NacreMaterial skin"), std::string::npos);
 }
 
+/// What somebody does who sees the window for the first time, by what is on the screen. docs/viewer.md has its
+/// pictures.
+TEST_F(ViewTest, ANewUserFindsTheWayFromAModelToASavedMaterial) {
+    const Display display;
+    if (!display.isThere()) {
+        GTEST_SKIP() << "there is no Xvfb";
+    }
+    writeText(folder() / "model.obj", cubeObj);
+    const std::filesystem::path script = std::filesystem::path(NACRE_SOURCE_DIR) / "docs/viewer-walk.json";
+    const Outcome outcome = run({"view", "cube.obj", "--script", script.string(), "--validation"},
+                                environmentOf({{"QT_QPA_PLATFORM", "xcb"}, {"DISPLAY", display.name()}}));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    const Json saved = Json::parse(bytes("my-skin.json"));
+    EXPECT_EQ(saved.at("layers").size(), 7u); // those of skin, and one more
+    for (const char* step : {"start", "open", "skin", "layer", "effect-off", "reference", "save"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder() / ("walk-" + std::string(step) + ".png"))) << step;
+    }
+}
+
+TEST_F(ViewTest, AScriptUsesOnlyWhatIsOnTheScreen) {
+    expectComplaint(runScript({{{"choose", "compare.second"}, {"item", "Effect off"}}}, offscreen), 1,
+                    {"'compare.second'", "not on the screen"});
+}
+
 /// A program that is killed leaves what was edited to the next one.
 TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
     const Json edits{{{"set", "material.scale"}, {"value", 6}},
+                     {{"panel", "Light"}},
                      {{"click", "light.remove"}},
                      {{"wait", true}},
                      {{"picture", "edited.png"}},
@@ -209,9 +245,10 @@ TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
     EXPECT_TRUE(std::filesystem::is_empty(kept)) << "it would be offered once more";
 }
 
-/// A second on a machine that has nothing else to do; tests run beside each other.
+/// Less than half a second on a machine that has nothing else to do; tests run beside each other.
 TEST_F(ViewTest, ClosingWhileAReferenceRunsIsSoonOver) {
     const Json steps{{{"wait", true}},
+                     {{"panel", "Compare"}},
                      {{"choose", "compare.second"}, {"item", "Reference (surface integral)"}},
                      {{"pause", 1500}},
                      {{"expect", "compare.progress"}, {"text", "samples a pixel"}},
@@ -224,7 +261,7 @@ TEST_F(ViewTest, ClosingWhileAReferenceRunsIsSoonOver) {
     }
     const auto begin = std::chrono::steady_clock::now();
     const Outcome outcome = running.wait();
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
 }
 

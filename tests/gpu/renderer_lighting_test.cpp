@@ -1,6 +1,11 @@
 // Light against closed forms: punctual lights and the environment on planes and spheres, shadows, no acne.
 #include "tests/gpu/support/renderer_scenes.hpp"
 
+#include "nacre/presets.hpp"
+#include "renderer/point_clusters.hpp"
+
+#include <random>
+
 namespace nacre::tests {
 namespace {
 
@@ -199,6 +204,65 @@ TEST_F(Lighting, NoAcneUnderASpotLight) {
 
 TEST_F(Lighting, NoAcneUnderAPointLight) {
     expectNoAcne(point({1.2f, 0.9f, 0.7f}, 2));
+}
+
+/// Specular light of a ball under a light and surroundings.
+Pixels specularOfBall(float roughness, double secondLobe, double secondLobeRoughness) {
+    scene::Scene scene = darkScene(3);
+    scene.environment.intensity = 1;
+    scene.materials = {presets().front()};
+    scene.materials[0].secondLobe = secondLobe;
+    scene.materials[0].secondLobeRoughness = secondLobeRoughness;
+    scene::Surface& surface = add(scene, sphere(0.5f, 16));
+    surface.material = 0;
+    surface.roughness = roughness;
+    scene.lights = {directional({0.3f, -0.4f, -1}, 3)};
+    renderer::RenderSettings settings = plainSettings();
+    settings.width = settings.height = 64;
+    return render(scene, settings).read(Output::Specular);
+}
+
+TEST_F(Lighting, TwoLobesAreMixed) {
+    const Pixels one = specularOfBall(0.4f, 0, 1);
+    const Pixels other = specularOfBall(0.4f * 1.5f, 0, 1);
+    EXPECT_EQ(specularOfBall(0.4f, 0, 1.5).values, one.values) << "a lobe without a share changes something";
+    const Pixels second = specularOfBall(0.4f, 1, 1.5);
+    const Pixels mixed = specularOfBall(0.4f, 0.25, 1.5);
+    float most = 0;
+    for (std::size_t i = 0; i < one.values.size(); ++i) {
+        const float tolerance = 2e-3f * std::max(1.0f, other.values[i]); // roughness and light are half floats
+        ASSERT_NEAR(second.values[i], other.values[i], 4 * tolerance) << i;
+        ASSERT_NEAR(mixed.values[i], 0.75f * one.values[i] + 0.25f * second.values[i], tolerance) << i;
+        most = std::max(most, std::abs(one.values[i] - second.values[i]));
+    }
+    EXPECT_GT(most, 0.05f);
+}
+
+TEST(PointClusters, ReachAsFarAsAllTheirPoints) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    const auto vector = [&] { return glm::vec3(normal(random), normal(random), normal(random)); };
+    for (const std::size_t count : {0u, 1u, 64u, 65u, 5000u}) {
+        std::vector<glm::vec3> points(count);
+        for (glm::vec3& point : points) {
+            point = glm::vec3(3, 0.1f, 1) * vector() + glm::vec3(20, 0, -5);
+        }
+        const renderer::PointClusters clusters{std::vector(points)};
+        for (int i = 0; i < 50; ++i) {
+            const glm::vec3 axis = vector();
+            renderer::Interval expected{1, -1};
+            float farthest = 0.5f;
+            for (const glm::vec3& point : points) {
+                const float along = glm::dot(axis, point);
+                expected = {std::min(expected.low, along), std::max(expected.high, along)};
+                farthest = std::max(farthest, glm::distance(point, axis));
+            }
+            const renderer::Interval found = clusters.extend({1, -1}, axis);
+            ASSERT_EQ(found.low, expected.low) << count;
+            ASSERT_EQ(found.high, expected.high) << count;
+            ASSERT_EQ(clusters.farthest(0.5f, axis), farthest) << count;
+        }
+    }
 }
 
 } // namespace

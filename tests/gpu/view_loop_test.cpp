@@ -3,6 +3,7 @@
 #include "nacre/presets.hpp"
 #include "tests/gpu/support/recording_calls.hpp"
 #include "tests/gpu/support/renderer_scenes.hpp"
+#include "tests/support/bank_twin.hpp"
 #include "view/loop/headless.hpp"
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
@@ -19,6 +20,7 @@
 #include "trace/geometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <thread>
 
@@ -252,6 +254,48 @@ TEST_F(ViewLoop, AFootprintIsWhatLightTravelsInPixels) {
     view::SideSettings picture;
     picture.look.exposure = scene_->exposure;
     loop_->setSide(0, picture);
+}
+
+/// The technique's twin on the processor says which pipeline combines a pixel.
+TEST_F(ViewLoop, RegionsAreThoseOfTheTechnique) {
+    constexpr std::uint32_t width = 200;
+    constexpr std::uint32_t height = 150;
+    view::SideSettings look;
+    look.look.image = renderer::ShownImage::Regions;
+    loop_->resize(width, height);
+    loop_->setSide(0, look);
+    draw(*loop_); // the first sample is in the pixels' middle
+    const Image regions = loop_->read(0).light;
+    const Image depth = loop_->readImage(renderer::Output::Depth);
+    const Image ids = loop_->readImage(renderer::Output::Material);
+    ScatterScene scene;
+    scene.width = width;
+    scene.height = height;
+    scene.focalLength = height / (2 * std::tan(scene_->cameras[0].verticalFieldOfView / 2));
+    scene.profiles.push_back(makeProfile(presets().front()));
+    for (std::uint32_t i = 0; i < width * height; ++i) {
+        scene.irradiance.push_back({1, 1, 1});
+        scene.depth.push_back(depth.at(i % width, i / width)[0] * scene_->metersPerUnit * 1000);
+        scene.materialId.push_back(static_cast<std::uint8_t>(ids.at(i % width, i / width)[0]));
+    }
+    const BankTwin twin(scene);
+    std::array<int, 2> pixels{};
+    for (std::uint32_t i = 0; i < width * height; ++i) {
+        const auto x = static_cast<int>(i % width);
+        const auto y = static_cast<int>(i / width);
+        const std::span<const float> color = regions.at(i % width, i / width);
+        if (scene.materialId[i] != 0) {
+            const bool isSmooth = color[2] > color[0];
+            ASSERT_EQ(isSmooth, twin.isCombinedSmoothly(x, y)) << x << ", " << y;
+            ++pixels[isSmooth ? 1 : 0];
+        }
+    }
+    EXPECT_GT(pixels[0], 500);
+    EXPECT_GT(pixels[1], 500);
+    view::SideSettings picture;
+    picture.look.exposure = scene_->exposure;
+    loop_->setSide(0, picture);
+    loop_->resize(side, side);
 }
 
 TEST_F(ViewLoop, ABackdropIsSeenWhereThereIsNothing) {

@@ -138,6 +138,7 @@ BankTwin::BankTwin(const ScatterScene& scene, const TwinSettings& settings) : sc
         blurLevel(level);
     }
     result_ = scene.irradiance;
+    smooth_.resize(result_.size());
     for (int y = 0; y < scene.height; y += 2 * partHeight) {
         for (int x = 0; x < scene.width; x += 2 * partWidth) {
             combineRegion(x, y);
@@ -471,7 +472,13 @@ void BankTwin::combineRegion(int firstX, int firstY) {
     for (int y = firstY; y < std::min(firstY + 2 * partHeight, scene_.height); y += 2) {
         for (int x = firstX; x < std::min(firstX + 2 * partWidth, scene_.width); x += 2) {
             const int part = (x - firstX) / partWidth + 2 * ((y - firstY) / partHeight);
-            combineQuad(x, y, noneSmooth || edges[part] ? edgeRegions[part] : smooth);
+            const Region& region = noneSmooth || edges[part] ? edgeRegions[part] : smooth;
+            combineQuad(x, y, region);
+            for (int i = 0; i < 4; ++i) {
+                if (x + i % 2 < scene_.width && y + i / 2 < scene_.height) {
+                    smooth_[scene_.index(x + i % 2, y + i / 2)] = region.smooth;
+                }
+            }
         }
     }
 }

@@ -65,6 +65,8 @@ public:
     const TwinLevel<BlurredTexel>& blurred(int level) const { return blurred_[level]; }
     /// Pass C: the scattered irradiance of every pixel.
     const std::vector<Rgb>& result() const { return result_; }
+    /// Whether pass C combines the pixel by its smooth pipeline.
+    bool isCombinedSmoothly(int x, int y) const { return smooth_[scene_.index(x, y)]; }
 
 private:
     struct Seen;
@@ -121,6 +123,7 @@ private:
     int tilesX_ = 0;
     int tilesY_ = 0;
     std::vector<Rgb> result_;
+    std::vector<bool> smooth_;
 };
 
 } // namespace nacre::tests

@@ -80,7 +80,8 @@ TEST(MaterialSchema, HasTheKeysOfTheReader) {
 
 TEST(MaterialSchema, HasTheRangesOfTheReader) {
     const Json properties = schema().at("properties");
-    for (const char* key : {"strength", "translucency", "diffuseTransmission", "scale", "roughness", "specular"}) {
+    for (const char* key : {"strength", "translucency", "diffuseTransmission", "scale", "roughness", "specular",
+                            "secondLobe", "secondLobeRoughness"}) {
         expectRange(properties.at(key), minimal(), Json::json_pointer(std::string("/") + key));
     }
     Json albedo = minimal();

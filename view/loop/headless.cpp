@@ -18,6 +18,7 @@ namespace nacre::view {
 namespace {
 
 constexpr std::uint32_t warmUpFrames = 3; // shadow maps, and what drivers do at first
+constexpr std::uint32_t earlyFrame = 100; // memory is looked at here for the first time
 constexpr float wholeTurn = 2 * std::numbers::pi_v<float>;
 constexpr std::chrono::microseconds pause{50}; // until a busy device is asked again
 
@@ -63,8 +64,14 @@ LoopSettings loopSettings(std::uint32_t width, std::uint32_t height, std::uint32
     return settings;
 }
 
-/// Times of all frames of a run.
+/// Times of all frames of a run, with room for them from the start: they are no growth.
 struct Times {
+    explicit Times(std::size_t count) {
+        for (std::vector<double>* values : {&frame, &effect, &processor, &interval}) {
+            values->reserve(count);
+        }
+    }
+
     std::vector<double> frame;
     std::vector<double> effect;
     std::vector<double> processor;
@@ -77,6 +84,7 @@ struct Times {
         for (std::size_t i = 0; i < report.passes.size(); ++i) {
             if (i >= passes.size()) {
                 passes.push_back({report.passes[i].name, {}});
+                passes.back().second.reserve(frame.capacity());
             }
             passes[i].second.push_back(report.passes[i].microseconds / 1e3);
         }
@@ -107,7 +115,7 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
     LoopSettings forLoop = loopSettings(settings.width, settings.height, settings.shadowMapSize);
     forLoop.restartEveryFrame = true;
     PictureLoop loop(device, scene, forLoop);
-    Times times;
+    Times times(settings.frames);
     scene::Camera camera = scene.cameras.at(0);
     std::vector<Material> materials = scene.materials;
     const auto draw = [&](std::uint32_t frame) {
@@ -131,54 +139,30 @@ HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, con
     loop.wait();
     loop.onFinished = [&](const renderer::FrameReport& report) { times.add(report); };
     auto last = std::chrono::steady_clock::now();
-    std::int64_t memory = 0;
+    HeadlessRun run;
+    run.memoryFrame = std::min(earlyFrame, settings.frames / 2);
+    const std::uint64_t allocations = device.implementation().allocations;
+    const std::uint64_t waits = loop.waits();
     for (std::uint32_t frame = 0; frame < settings.frames; ++frame) {
         const double changing = draw(frame + warmUpFrames);
         times.processor.push_back(changing + loop.stepMilliseconds());
         const auto now = std::chrono::steady_clock::now();
         times.interval.push_back(std::chrono::duration<double, std::milli>(now - last).count());
         last = now;
-        memory = frame == settings.frames / 2 ? heapBytes() : memory;
+        run.memory = frame == run.memoryFrame ? heapBytes() : run.memory;
     }
+    run.memoryAtEnd = heapBytes();
+    run.deviceAllocations = device.implementation().allocations - allocations;
+    run.waits = loop.waits() - waits;
     loop.wait();
-    HeadlessRun run{distributionOf(times.frame),
-                    distributionOf(times.effect),
-                    distributionOf(times.processor),
-                    distributionOf(times.interval),
-                    {},
-                    heapBytes() - memory};
+    run.frame = distributionOf(times.frame);
+    run.effect = distributionOf(times.effect);
+    run.processor = distributionOf(times.processor);
+    run.interval = distributionOf(times.interval);
     for (const auto& [name, values] : times.passes) {
         run.passes.emplace_back(name, distributionOf(values).median);
     }
     return run;
-}
-
-void printHeadless(std::ostream& out, renderer::Device& device, const scene::Scene& scene,
-                   const HeadlessSettings& settings) {
-    out << settings.width << 'x' << settings.height << ", " << settings.frames << " frames on "
-        << device.description().name << ", ms\n";
-    const auto row = [&](const std::string& name, const Distribution& times) {
-        std::array<char, 128> text{};
-        std::snprintf(text.data(), text.size(), "  %-28s median %9.3f   p99 %9.3f\n", name.c_str(), times.median,
-                      times.p99);
-        out << text.data();
-    };
-    for (const auto& [moving, title] :
-         {std::pair(Moving::Nothing, "lights still"), std::pair(Moving::Lights, "lights moving"),
-          std::pair(Moving::Material, "material changing")}) {
-        const HeadlessRun run = runHeadless(device, scene, settings, moving);
-        out << title << '\n';
-        row("frame, device", run.frame);
-        row("scatter and transmit, device", run.effect);
-        row("frame, processor", run.processor);
-        row("frame to frame", run.interval);
-        out << "  growth of memory             " << run.memoryGrowth / 1024 << " KiB\n";
-        for (const auto& [name, median] : run.passes) {
-            std::array<char, 128> text{};
-            std::snprintf(text.data(), text.size(), "    %-36s %9.3f\n", name.c_str(), median);
-            out << text.data();
-        }
-    }
 }
 
 void drawTurntable(renderer::Device& device, const scene::Scene& scene, const TurntableSettings& settings) {

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,17 +39,17 @@ struct HeadlessRun {
     Distribution processor;                             ///< from the first change to the submission, without waits
     Distribution interval;                              ///< from one frame to the next
     std::vector<std::pair<std::string, double>> passes; ///< medians, in order
-    std::int64_t memoryGrowth = 0; ///< bytes that the program grew by, over the second half of the frames
+    std::uint32_t memoryFrame = 0;                      ///< 100, or half of the frames where there are fewer than 200
+    std::int64_t memory = 0;                            ///< bytes that the program had allocated after that frame
+    std::int64_t memoryAtEnd = 0;
+    std::uint64_t deviceAllocations = 0; ///< made while frames were drawn
+    std::uint64_t waits = 0;             ///< for the device, but for the fence of the frame whose place the next takes
 };
 
 /// Draws `frames` frames while the camera goes around the scene, and the lights with it or the first material's scale
 /// up and down.
 HeadlessRun runHeadless(renderer::Device& device, const scene::Scene& scene, const HeadlessSettings& settings,
                         Moving moving);
-
-/// All three runs, as a table for a terminal.
-void printHeadless(std::ostream& out, renderer::Device& device, const scene::Scene& scene,
-                   const HeadlessSettings& settings);
 
 struct TurntableSettings {
     std::uint32_t count = 36; ///< [≥ 1] frames of a whole turn

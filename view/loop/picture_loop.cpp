@@ -29,12 +29,19 @@ float halton(std::uint32_t index, std::uint32_t base) {
     return result;
 }
 
-/// SampleLook::pixelScale.
+/// SampleLook::pixelScale of ShownImage::Footprint.
 float pixelsPerMillimeter(const scene::Camera& camera, std::uint32_t height, float metersPerUnit) {
     const float millimeters = 1000 * metersPerUnit;
     return camera.projection == scene::ProjectionKind::Orthographic
                ? -static_cast<float>(height) / (camera.orthographicHeight * millimeters)
                : static_cast<float>(height) / (2 * std::tan(camera.verticalFieldOfView / 2) * millimeters);
+}
+
+/// The same of ShownImage::Regions.
+float pixelWidth(const scene::Camera& camera, std::uint32_t height) {
+    return camera.projection == scene::ProjectionKind::Orthographic
+               ? -camera.orthographicHeight / static_cast<float>(height)
+               : 2 * std::tan(camera.verticalFieldOfView / 2) / static_cast<float>(height);
 }
 
 /// Where in its pixel sample `index` of a picture lies: the first in the middle, the others spread evenly.
@@ -314,6 +321,7 @@ bool PictureLoop::finishAll() {
 }
 
 void PictureLoop::wait() {
+    ++waits_;
     translateErrors([&] {
         for (Slot& slot : slots_) {
             if (slot.inFlight && gpu_.device.waitForFences(*slot.fence, VK_TRUE, forever) == vk::Result::eSuccess) {
@@ -410,9 +418,16 @@ void PictureLoop::prepareEffect(Sized& sized, const renderer::EffectSettings& ef
     sized.frame.setEffect(effect);
 }
 
-/// What ShownImage::Footprint needs.
-renderer::SampleLook PictureLoop::prepareLook(const renderer::SampleLook& look, std::uint32_t index) {
+/// What ShownImage::Footprint and ShownImage::Regions need.
+renderer::SampleLook PictureLoop::prepareLook(const renderer::SampleLook& look, std::uint32_t index,
+                                              std::uint32_t height) {
     renderer::SampleLook result = look;
+    if (look.image == ShownImage::Regions) {
+        constexpr float ofOneSurface = 6; // bank_constants.h: bankSurfaceSeparation, bankSecondSeparation
+        constexpr float ofTwoSurfaces = 2;
+        result.pixelScale = pixelWidth(camera_, height);
+        result.separation = std::ranges::any_of(materials_, asksForSecondSurfaces) ? ofTwoSurfaces : ofOneSurface;
+    }
     if (look.image != ShownImage::Footprint) {
         return result;
     }
@@ -439,8 +454,8 @@ void PictureLoop::recordFrame(Slot& slot, std::uint32_t index, std::uint32_t sid
     const std::uint32_t sample = moving_ ? 0 : accumulation_->samples(side);
     slot.drawn = &sized;
     sized.frame.record(slot.commands, index, {camera_, jitterOf(sample)});
-    accumulation_->recordSample(slot.commands, index, sized.pass, side, sized.extent, prepareLook(settings.look, index),
-                                sized.frame.effectUse(index));
+    accumulation_->recordSample(slot.commands, index, sized.pass, side, sized.extent,
+                                prepareLook(settings.look, index, sized.extent.height), sized.frame.effectUse(index));
 }
 
 void PictureLoop::recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,

@@ -94,6 +94,8 @@ public:
     std::uint64_t framesFinished() const { return framesFinished_; }
     /// Processor time of the last step that drew, ms.
     double stepMilliseconds() const { return stepMilliseconds_; }
+    /// How often everything stood still until the device had finished, as no frame has to.
+    std::uint64_t waits() const { return waits_; }
     /// Called with the report of every frame that has finished.
     std::function<void(const renderer::FrameReport&)> onFinished;
 
@@ -126,7 +128,7 @@ private:
     bool prepareWindow();
     std::optional<renderer::Swapchain::Acquired> acquire(Slot& slot);
     void prepareEffect(Sized& sized, const renderer::EffectSettings& effect);
-    renderer::SampleLook prepareLook(const renderer::SampleLook& look, std::uint32_t index);
+    renderer::SampleLook prepareLook(const renderer::SampleLook& look, std::uint32_t index, std::uint32_t height);
     void recordFrame(Slot& slot, std::uint32_t index, std::uint32_t side);
     void recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,
                       const renderer::Swapchain::Acquired& image);
@@ -160,6 +162,7 @@ private:
     renderer::FrameReport report_;
     std::uint64_t framesFinished_ = 0;
     double stepMilliseconds_ = 0;
+    std::uint64_t waits_ = 0;
 };
 
 } // namespace nacre::view

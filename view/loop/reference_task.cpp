@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t mostSamples = 4096;
 constexpr std::chrono::seconds pictureInterval{1};
+constexpr double sliceSeconds = 0.05; // that a window which closes may have to wait
 
 Image pictureOf(const reference::Film& film) {
     Image image = makeImage(film.width, film.height, {"R", "G", "B"});
@@ -38,6 +39,7 @@ void ReferenceTask::run(const scene::Camera& camera, std::uint32_t width, std::u
         reference::Settings settings;
         settings.width = width;
         settings.height = height;
+        settings.sliceSeconds = sliceSeconds;
         // The window draws beside it.
         settings.threads = std::max(1u, std::thread::hardware_concurrency() / 2);
         reference::Reference reference(scene_, camera, settings);
@@ -57,9 +59,11 @@ void ReferenceTask::run(const scene::Camera& camera, std::uint32_t width, std::u
             }
             return !stop_;
         });
-        const std::scoped_lock lock(mutex_);
-        state_.light = pictureOf(reference.film());
-        ++state_.version;
+        if (!stop_) {
+            const std::scoped_lock lock(mutex_);
+            state_.light = pictureOf(reference.film());
+            ++state_.version;
+        }
     } catch (const std::exception& error) {
         const std::scoped_lock lock(mutex_);
         state_.fault = error.what();

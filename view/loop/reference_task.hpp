@@ -15,7 +15,7 @@ namespace nacre::view {
 class ReferenceTask {
 public:
     ReferenceTask(scene::Scene scene, const scene::Camera& camera, std::uint32_t width, std::uint32_t height);
-    /// Stops; that takes as long as a slice of work, about a third of a second.
+    /// Stops, after the slice of work that is being done.
     ~ReferenceTask();
 
     struct State {

@@ -35,6 +35,8 @@ ComparePanel::ComparePanel(QWidget* parent)
       mode_(new QComboBox),
       first_(new QComboBox),
       second_(new QComboBox),
+      divider_(new ParameterSlider("compare.divider", {.decimals = 3},
+                                   "Where B begins, from left to right; it can be dragged in the picture, too")),
       restart_(new QPushButton("Start the &reference again")),
       progress_(new QLabel),
       error_(new QLabel),
@@ -67,6 +69,8 @@ ComparePanel::ComparePanel(QWidget* parent)
     form->addRow("Sho&w", mode_);
     form->addRow("&A, left", first_);
     form->addRow("&B, right", second_);
+    form->addRow("Di&vider", divider_);
+    divider_->showValue(0.5);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(form);
     layout->addWidget(restart_);
@@ -80,6 +84,7 @@ ComparePanel::ComparePanel(QWidget* parent)
     restart_->hide();
 
     connect(mode_, &QComboBox::currentIndexChanged, this, &ComparePanel::chosen);
+    connect(divider_, &ParameterSlider::changed, this, &ComparePanel::chosen);
     connect(first_, &QComboBox::currentIndexChanged, this, &ComparePanel::chosen);
     connect(second_, &QComboBox::currentIndexChanged, this, &ComparePanel::chooseSecond);
     // Whoever chooses what to compare with wants to see it, also where it was chosen already.
@@ -130,11 +135,11 @@ SideSettings ComparePanel::side(std::uint32_t side, const renderer::SampleLook& 
 }
 
 renderer::ShowLook ComparePanel::shown() const {
-    return {static_cast<ShownSides>(mode_->currentIndex()), divider_, 4};
+    return {static_cast<ShownSides>(mode_->currentIndex()), static_cast<float>(divider_->value()), 4};
 }
 
 void ComparePanel::setDivider(float divider) {
-    divider_ = divider;
+    divider_->showValue(divider);
     Q_EMIT chosen();
 }
 

@@ -4,6 +4,7 @@
 #include "view/loop/picture_loop.hpp"
 #include "view/loop/reference_task.hpp"
 #include "view/loop/side_error.hpp"
+#include "view/window/parameter_slider.hpp"
 
 #include <QComboBox>
 #include <QLabel>
@@ -63,6 +64,7 @@ private:
     QComboBox* mode_;
     QComboBox* first_;
     QComboBox* second_;
+    ParameterSlider* divider_;
     QPushButton* restart_;
     QLabel* progress_;
     QLabel* error_;
@@ -73,7 +75,6 @@ private:
     SideErrorTask errorTask_;
     QTimer pollError_;
     bool pictureIsDisplayed_ = false;
-    float divider_ = 0.5f;
 };
 
 } // namespace nacre::view

@@ -56,8 +56,10 @@ LayerList::LayerList(Document& document, QWidget* parent)
     const auto add = [&](const char* name, const char* text, const char* toolTip, auto run) {
         addButton(*row, this, name, text, toolTip, run)->setMinimumWidth(20);
     };
-    add("layers.add", "&Add", "Add a layer twice as wide as the widest",
-        [this] { change("add layer", [](EditedMaterial& material) { addLayer(material); }); });
+    add("layers.add", "&Add", "Add a layer twice as wide as the widest", [this] {
+        change("add layer", [](EditedMaterial& material) { addLayer(material); });
+        list_->setCurrentRow(list_->count() - 1); // what the sliders set now
+    });
     add("layers.duplicate", "Dupli&cate", "Add a copy of this layer", [this] {
         change("duplicate layer", [i = layer()](EditedMaterial& material) { duplicateLayer(material, i); });
     });

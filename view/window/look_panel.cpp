@@ -36,6 +36,8 @@ constexpr std::array imageChoices{
     ImageChoice{ShownImage::Material, "Materials", "A colour for each; dark grey has none"},
     ImageChoice{ShownImage::Footprint, "Footprint",
                 "Pixels that light travels: black 1/4, violet 2, red 16, yellow 64, white 256 and more"},
+    ImageChoice{ShownImage::Regions, "Smooth and edge regions",
+                "Technique bank combines blue parts by its smooth pipeline, orange ones by its edge pipeline"},
     ImageChoice{ShownImage::ShadowMap, "Shadow map", "Of the light that the panel Light shows: white is near it", true},
     ImageChoice{ShownImage::Irradiance, "Where light enters",
                 "Irradiance by the light that the panel Light shows, and by nothing else", true},

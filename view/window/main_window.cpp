@@ -141,6 +141,10 @@ void MainWindow::drawSwatch() {
 }
 
 MainWindow::~MainWindow() {
+    // Panels are hidden while the window goes, which is nothing to act on.
+    for (const Panel& panel : panels_) {
+        panel.dock->disconnect(this);
+    }
     compare_->stop();
     if (quiet_) {
         recovery_->remove(); // a script's edits are no one's
@@ -265,6 +269,7 @@ void MainWindow::applyView() {
         }
     }
     applyMarks();
+    picture_->setDivider(compare_->shown().divider);
     picture_->setComparing(compare_->isComparing() && compare_->shown().sides == renderer::ShownSides::Both);
     measured_ = false;
     picture_->wake();

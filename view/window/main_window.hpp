@@ -81,10 +81,16 @@ private:
         void (MainWindow::*run)();
     };
 
+    struct Panel {
+        QDockWidget* dock;
+        QString menuText; ///< its name in the menu View, with a mnemonic
+    };
+
     void makeMenus();
     void addActions(const QString& menu, std::span<const Action> actions);
     void makePanels();
-    QDockWidget* addPanel(const QString& title, QWidget* widget, Qt::DockWidgetArea area);
+    void addPanel(const QString& menuText, QWidget* widget);
+    void showPanel(QDockWidget& dock);
     void makeStatusBar();
     void fillRecent();
     void rememberRecent(const QString& file);
@@ -149,6 +155,7 @@ private:
     ComparePanel* compare_ = nullptr;
     InspectPanel* inspect_ = nullptr;
     TimingPanel* timing_ = nullptr;
+    std::vector<Panel> panels_;
     QMenu* recent_ = nullptr;
     QLabel* pictureStatus_ = nullptr;
     std::array<SideSettings, renderer::Accumulation::sideCount> sides_; ///< as the loop has them

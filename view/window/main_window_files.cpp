@@ -74,7 +74,9 @@ bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scen
         complain(QString::fromUtf8(error.what()));
         return false;
     }
-    if (!file.isEmpty()) {
+    if (file.isEmpty()) {
+        note("Ctrl+O opens a model, or drop one here. Then choose a preset. ? lists all keys.");
+    } else {
         rememberRecent(file);
     }
     if (!document_.scene().notes.empty()) {

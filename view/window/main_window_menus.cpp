@@ -34,7 +34,9 @@ constexpr std::array mouse{
     MouseRow{"wheel, Ctrl and drag", "closer, farther"},
     MouseRow{"right button", "look around"},
     MouseRow{"W A S D Q E", "fly"},
-    MouseRow{"click", "choose a body's material, and say what is there"},
+    MouseRow{"arrows, + and -", "go around, closer, farther; with Shift the arrows shift the picture"},
+    MouseRow{"Tab, Shift and Tab", "to the next widget, to the one before; the picture is one"},
+    MouseRow{"click, Space", "choose a body's material, and say what is there; Space: in the middle"},
     MouseRow{"drag a light", "turn or move it; with Shift aim a spot, with Ctrl nearer or farther"},
     MouseRow{"drop", "open a scene, a model, a material or surroundings"}};
 
@@ -67,6 +69,7 @@ void MainWindow::makePanels() {
     inspect_ = new InspectPanel(document_);
     timing_ = new TimingPanel;
     connect(material_, &MaterialPanel::failed, this, &MainWindow::complain);
+    connect(material_, &MaterialPanel::saved, this, [this](const QString& file) { note("Saved " + file); });
     connect(look_, &LookPanel::failed, this, &MainWindow::complain);
     connect(look_, &LookPanel::chosen, this, [this] {
         if (loop_) {
@@ -80,21 +83,24 @@ void MainWindow::makePanels() {
     compare_->makeReference = [this] { return makeReference(); };
     compare_->readSide = [this](std::uint32_t side) { return loop_->read(side); };
 
-    QDockWidget* material = addPanel("Material", material_, Qt::RightDockWidgetArea);
-    QDockWidget* last = material;
-    for (QDockWidget* dock :
-         {addPanel("Light", lights_, Qt::RightDockWidgetArea), addPanel("Compare", compare_, Qt::RightDockWidgetArea),
-          addPanel("Picture", look_, Qt::RightDockWidgetArea), addPanel("Inspect", inspect_, Qt::RightDockWidgetArea),
-          addPanel("Timing", timing_, Qt::RightDockWidgetArea)}) {
-        tabifyDockWidget(last, dock);
-        last = dock;
+    addPanel("&Material", material_);
+    addPanel("&Light", lights_);
+    addPanel("Compar&e", compare_);
+    addPanel("&Picture", look_);
+    addPanel("&Inspect", inspect_);
+    addPanel("&Timing", timing_);
+    for (std::size_t i = 1; i < panels_.size(); ++i) {
+        tabifyDockWidget(panels_[i - 1].dock, panels_[i].dock);
     }
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     connect(findChild<QDockWidget*>("dock.light"), &QDockWidget::visibilityChanged, this, &MainWindow::showLights);
-    material->raise();
+    panels_.front().dock->raise();
+    constexpr int width = 460; // px: that of its tabs; the rest is the picture's
+    resizeDocks({panels_.front().dock}, {width}, Qt::Horizontal);
 }
 
-QDockWidget* MainWindow::addPanel(const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
+void MainWindow::addPanel(const QString& menuText, QWidget* widget) {
+    const QString title = QString(menuText).remove('&');
     auto* dock = new QDockWidget(title, this);
     dock->setObjectName("dock." + title.toLower());
     auto* scroll = new QScrollArea;
@@ -103,8 +109,24 @@ QDockWidget* MainWindow::addPanel(const QString& title, QWidget* widget, Qt::Doc
     scroll->setMinimumWidth(330);
     scroll->setWidget(widget);
     dock->setWidget(scroll);
-    addDockWidget(area, dock);
-    return dock;
+    addDockWidget(Qt::RightDockWidgetArea, dock);
+    // Qt moves a panel that is behind another out of the window, where Tab would still find it.
+    connect(dock, &QDockWidget::visibilityChanged, widget, &QWidget::setVisible);
+    panels_.push_back({dock, menuText});
+}
+
+/// In front of the others, with the keyboard at its first widget.
+void MainWindow::showPanel(QDockWidget& dock) {
+    dock.show();
+    dock.raise();
+    QWidget* content = static_cast<QScrollArea*>(dock.widget())->widget();
+    for (QWidget* next = content->nextInFocusChain(); next != content; next = next->nextInFocusChain()) {
+        if (content->isAncestorOf(next) && (next->focusPolicy() & Qt::TabFocus) != 0 && next->isVisible()) {
+            activateWindow();
+            next->setFocus(Qt::TabFocusReason);
+            return;
+        }
+    }
 }
 
 void MainWindow::addActions(const QString& menu, std::span<const Action> actions) {
@@ -169,10 +191,11 @@ void MainWindow::makeMenus() {
     connect(dark, &QAction::toggled, this, &MainWindow::setDark);
     viewMenu->addSeparator();
     int number = 1;
-    for (QDockWidget* dock : findChildren<QDockWidget*>()) {
-        QAction* toggle = dock->toggleViewAction();
-        toggle->setShortcut(QKeySequence(QString("Ctrl+%1").arg(number++)));
-        viewMenu->addAction(toggle);
+    for (const Panel& panel : panels_) {
+        QAction* show = viewMenu->addAction(panel.menuText, this, [this, dock = panel.dock] { showPanel(*dock); });
+        show->setObjectName("panel." + panel.dock->windowTitle().toLower());
+        show->setShortcut(QKeySequence(QString("Ctrl+%1").arg(number++)));
+        show->setStatusTip("Bring the panel " + panel.dock->windowTitle() + " to the front");
     }
 
     const std::array help{Action{"help.shortcuts", "&Shortcuts", QKeySequence("?"), "What mouse and keys do",
@@ -233,6 +256,11 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
         return;
     }
     // The picture has the keyboard to itself while it has the focus.
+    if (event->key() == Qt::Key_Tab || event->key() == Qt::Key_Backtab) {
+        activateWindow();
+        focusNextPrevChild(event->key() == Qt::Key_Tab);
+        return;
+    }
     const QKeySequence pressed(event->keyCombination());
     for (QAction* action : findChildren<QAction*>()) {
         if (action->isEnabled() && action->shortcuts().contains(pressed)) {

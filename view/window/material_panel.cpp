@@ -253,10 +253,11 @@ void MaterialPanel::save(const QString& file) {
         if (file.endsWith(".h") || file.endsWith(".c")) {
             const std::string text = structsOf(drawn);
             writeFileAtomically(file.toStdString(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-            return;
+        } else {
+            saveMaterial(drawn, file.toStdString());
+            document_.materialSaved();
         }
-        saveMaterial(drawn, file.toStdString());
-        document_.materialSaved();
+        Q_EMIT saved(file);
     } catch (const std::exception& error) {
         Q_EMIT failed(QString::fromUtf8(error.what()));
     }

@@ -32,6 +32,8 @@ public:
 
 Q_SIGNALS:
     void failed(QString sentence);
+    /// This material was written to a file.
+    void saved(QString file);
 
 private:
     void makeSource();

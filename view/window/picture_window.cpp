@@ -23,6 +23,8 @@ constexpr double dividerPixels = 8;     ///< from here the divider is taken hold
 constexpr double handlePixels = 12;     ///< likewise a light
 constexpr float zoomPerStep = 0.9f;     ///< of the distance, for one step of the wheel
 constexpr float flyRadii = 0.5f;        ///< scene radii in a second
+constexpr float turnPerKey = std::numbers::pi_v<float> / 36;
+constexpr float shiftPerKey = 0.05f; ///< of the picture's height
 
 /// A key that flies, and where to: right, up, forward.
 struct FlyKey {
@@ -32,6 +34,14 @@ struct FlyKey {
 constexpr std::array flyKeys{FlyKey{Qt::Key_D, {1, 0, 0}}, FlyKey{Qt::Key_A, {-1, 0, 0}},
                              FlyKey{Qt::Key_E, {0, 1, 0}}, FlyKey{Qt::Key_Q, {0, -1, 0}},
                              FlyKey{Qt::Key_W, {0, 0, 1}}, FlyKey{Qt::Key_S, {0, 0, -1}}};
+
+/// An arrow key, and where it turns or shifts the picture: right, down.
+struct ArrowKey {
+    int key;
+    glm::vec2 direction;
+};
+constexpr std::array arrowKeys{ArrowKey{Qt::Key_Left, {-1, 0}}, ArrowKey{Qt::Key_Right, {1, 0}},
+                               ArrowKey{Qt::Key_Up, {0, -1}}, ArrowKey{Qt::Key_Down, {0, 1}}};
 
 bool isFlyKey(const QKeyEvent& event) {
     return event.modifiers() == Qt::NoModifier &&
@@ -343,9 +353,30 @@ void PictureWindow::wheelEvent(QWheelEvent* event) {
     applyCamera();
 }
 
+/// What the mouse does, for the keyboard; false where the key means something else.
+bool PictureWindow::moveByKey(const QKeyEvent& event) {
+    const auto arrow = std::ranges::find(arrowKeys, event.key(), &ArrowKey::key);
+    if (arrow != arrowKeys.end() && event.modifiers().testFlag(Qt::ShiftModifier)) {
+        pan(camera_, shiftPerKey * arrow->direction);
+    } else if (arrow != arrowKeys.end()) {
+        orbit(camera_, turnPerKey * arrow->direction);
+    } else if (event.text() == "+" || event.text() == "-") {
+        zoom(camera_, event.text() == "+" ? zoomPerStep : 1 / zoomPerStep);
+    } else if (event.key() == Qt::Key_Space) {
+        Q_EMIT clicked({0.5, 0.5});
+        return true;
+    } else {
+        return false;
+    }
+    applyCamera();
+    return true;
+}
+
 void PictureWindow::keyPressEvent(QKeyEvent* event) {
     if (!isFlyKey(*event)) {
-        Q_EMIT keyed(event);
+        if (!moveByKey(*event)) {
+            Q_EMIT keyed(event);
+        }
         return;
     }
     if (!event->isAutoRepeat()) {

@@ -79,6 +79,7 @@ private:
     std::optional<LightHandle> handleAt(const QPointF& position) const;
     void dragLight(const QMouseEvent& event, const QPointF& step);
     void applyCamera();
+    bool moveByKey(const QKeyEvent& event);
     template <typename Action> void guarded(const Action& action);
 
     QVulkanInstance* instance_;

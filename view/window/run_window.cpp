@@ -51,6 +51,8 @@ int runWindow(const RunSettings& settings) {
     char name[] = "nacre";
     char* arguments[] = {name, nullptr};
     qInstallMessageHandler(showNote);
+    // A script answers Qt's own.
+    QApplication::setAttribute(Qt::AA_DontUseNativeDialogs, !settings.script.empty());
     QApplication application(argumentCount, arguments);
     QApplication::setApplicationName("nacre");
     QApplication::setOrganizationName("nacre");

@@ -10,13 +10,19 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
+#include <QMessageBox>
 #include <QPainter>
+#include <QScrollArea>
 #include <QTest>
+#include <QTimer>
 
 #include <array>
 #include <functional>
@@ -43,6 +49,20 @@ template <typename Widget> Widget& find(MainWindow& window, const QString& name)
     return *widget;
 }
 
+/// The same of what a user has to see, to use it: its panel scrolls to it.
+template <typename Widget> Widget& findShown(MainWindow& window, const QString& name) {
+    auto& widget = find<Widget>(window, name);
+    if (!widget.isVisible() || !widget.isEnabled()) {
+        refuse("'" + name + "' is " + (widget.isVisible() ? "disabled" : "not on the screen: its panel comes first"));
+    }
+    for (QWidget* above = widget.parentWidget(); above != nullptr; above = above->parentWidget()) {
+        if (auto* area = qobject_cast<QScrollArea*>(above)) {
+            area->ensureWidgetVisible(&widget);
+        }
+    }
+    return widget;
+}
+
 QString textOf(const QJsonValue& value, const char* what) {
     if (!value.isString()) {
         refuse(QString("'%1' must be a text").arg(what));
@@ -64,9 +84,42 @@ void requireNoFault(MainWindow& window, const QString& before) {
     }
 }
 
+/// Does what asks for a file where the step has a "file": types its name into the dialogue, as a user would. Whatever
+/// else is asked ends the step.
+void answering(const QJsonObject& step, const std::function<void()>& act) {
+    if (!step.contains("file")) {
+        act();
+        return;
+    }
+    const QString file = QFileInfo(textOf(step["file"], "file")).absoluteFilePath();
+    QString fault = "it asks for no file";
+    QTimer timer;
+    QObject::connect(&timer, &QTimer::timeout, [&] {
+        QWidget* asking = QApplication::activeModalWidget();
+        auto* dialog = qobject_cast<QFileDialog*>(asking);
+        if (auto* box = qobject_cast<QMessageBox*>(asking)) {
+            fault = "it asks: " + box->text();
+            box->reject();
+        } else if (dialog != nullptr && fault == "it asks for no file") {
+            fault.clear();
+            auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
+            name->setText(file);
+            QTimer::singleShot(0, name, [name] { QTest::keyClick(name, Qt::Key_Return); }); // which may ask again
+        } else if (dialog != nullptr) {
+            dialog->reject();
+        }
+    });
+    constexpr int lookMilliseconds = 20;
+    timer.start(lookMilliseconds);
+    act();
+    if (!fault.isEmpty()) {
+        refuse(fault);
+    }
+}
+
 /// {"set": NAME, "value": NUMBER}: as if typed into the parameter's field.
 void set(MainWindow& window, const QJsonObject& step) {
-    auto& slider = find<ParameterSlider>(window, textOf(step["set"], "set"));
+    auto& slider = findShown<ParameterSlider>(window, textOf(step["set"], "set"));
     if (!step["value"].isDouble()) {
         refuse("'value' must be a number");
     }
@@ -77,7 +130,7 @@ void set(MainWindow& window, const QJsonObject& step) {
 /// {"choose": NAME, "item": TEXT} of a list.
 void choose(MainWindow& window, const QJsonObject& step) {
     const QString item = textOf(step["item"], "item");
-    auto& box = find<QComboBox>(window, textOf(step["choose"], "choose"));
+    auto& box = findShown<QComboBox>(window, textOf(step["choose"], "choose"));
     const int row = box.findText(item);
     if (row < 0) {
         refuse("'" + box.objectName() + "' has no item '" + item + "'");
@@ -88,7 +141,7 @@ void choose(MainWindow& window, const QJsonObject& step) {
 
 /// {"select": NAME, "row": NUMBER}, and "checked" of that row.
 void select(MainWindow& window, const QJsonObject& step) {
-    auto& list = find<QListWidget>(window, textOf(step["select"], "select"));
+    auto& list = findShown<QListWidget>(window, textOf(step["select"], "select"));
     const int row = step["row"].toInt(-1);
     if (row < 0 || row >= list.count()) {
         refuse(QString("'%1' has no row %2, only 0 to %3").arg(list.objectName()).arg(row).arg(list.count() - 1));
@@ -100,15 +153,13 @@ void select(MainWindow& window, const QJsonObject& step) {
 }
 
 void click(MainWindow& window, const QJsonObject& step) {
-    auto& button = find<QAbstractButton>(window, textOf(step["click"], "click"));
-    if (!button.isEnabled()) {
-        refuse("'" + button.objectName() + "' is disabled");
-    }
-    button.click();
+    auto& button = findShown<QAbstractButton>(window, textOf(step["click"], "click"));
+    answering(step, [&] { button.click(); });
 }
 
 void act(MainWindow& window, const QJsonObject& step) {
-    find<QAction>(window, textOf(step["action"], "action")).trigger();
+    auto& action = find<QAction>(window, textOf(step["action"], "action"));
+    answering(step, [&] { action.trigger(); });
 }
 
 void press(MainWindow& window, const QJsonObject& step) {
@@ -192,12 +243,13 @@ void pause(MainWindow&, const QJsonObject& step) {
     QTest::qWait(step["pause"].toInt());
 }
 
-/// {"expect": NAME, "text": PART}: that a label has this in its text.
+/// {"expect": NAME, "text": PART, "within": MILLISECONDS}: that a label has this in its text, at once where no time is
+/// given.
 void expect(MainWindow& window, const QJsonObject& step) {
-    const QString shown = find<QLabel>(window, textOf(step["expect"], "expect")).text();
+    const auto& label = find<QLabel>(window, textOf(step["expect"], "expect"));
     const QString part = textOf(step["text"], "text");
-    if (!shown.contains(part)) {
-        refuse("'" + step["expect"].toString() + "' says '" + shown + "', and not '" + part + "'");
+    if (!QTest::qWaitFor([&] { return label.text().contains(part); }, step["within"].toInt(0))) {
+        refuse("'" + label.objectName() + "' says '" + label.text() + "', and not '" + part + "'");
     }
 }
 
