@@ -99,6 +99,33 @@ std::vector<std::string> wantedNames(const Imf::ChannelList& list, ExrChannels w
     return names;
 }
 
+/// Throws where an attribute of the header is larger than the file: OpenEXR makes room for what it claims before it
+/// reads it. Of a file with several parts this is the first one's; others are refused.
+void requireWholeHeader(std::span<const std::uint8_t> bytes, const std::string& name) {
+    constexpr std::size_t start = 8; // after the magic number and the version
+    const auto takeText = [&bytes] {
+        const auto end = std::ranges::find(bytes, 0);
+        std::string text(bytes.begin(), end);
+        bytes = bytes.subspan(std::min(text.size() + 1, bytes.size()));
+        return text;
+    };
+    bytes = bytes.subspan(std::min(start, bytes.size()));
+    for (std::string attribute = takeText(); !attribute.empty(); attribute = takeText()) {
+        takeText(); // its type
+        std::uint32_t size = 0;
+        const bool hasSize = bytes.size() >= sizeof(size);
+        for (std::size_t i = 0; hasSize && i < sizeof(size); ++i) {
+            size |= std::uint32_t{bytes[i]} << (8 * i);
+        }
+        bytes = bytes.subspan(std::min(sizeof(size), bytes.size()));
+        if (!hasSize || size > bytes.size()) {
+            throw FileError(name + ": the OpenEXR header is damaged: its attribute \"" + attribute.substr(0, 60) +
+                            "\" is longer than the file");
+        }
+        bytes = bytes.subspan(size);
+    }
+}
+
 void requireKnownKind(MemoryInput& input, const std::string& name) {
     bool isTiled = false;
     bool isDeep = false;
@@ -188,6 +215,7 @@ Image decodeExr(std::span<const std::uint8_t> bytes, const std::string& name, Ex
     }();
     static_cast<void>(isBounded);
     try {
+        requireWholeHeader(bytes, name);
         MemoryInput input(bytes);
         return decode(input, name, wanted);
     } catch (const Iex::BaseExc& error) {

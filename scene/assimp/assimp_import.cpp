@@ -295,7 +295,7 @@ Scene loadWithAssimp(const std::filesystem::path& file) {
     if (error) {
         throw SceneError(file.string() + ": cannot be read: " + error.message());
     }
-    return runIsolated(file.string(), limitsFor(size), [&file] {
+    return importIsolated(file.string(), limitsFor(size), [&file] {
         try {
             return importFile(file);
         } catch (const SceneError&) {
