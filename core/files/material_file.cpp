@@ -1,5 +1,6 @@
 #include "nacre/files.hpp"
 
+#include "core/files/open_pbr.hpp"
 #include "nacre/layering.hpp"
 
 #include <nlohmann/json.hpp>
@@ -105,6 +106,13 @@ void read(const Json& value, const std::string& field, AlbedoUse& result) {
         }
     }
     refuse(field, value, "\"post\" or \"preAndPost\"");
+}
+
+void read(const Json& value, const std::string& field, bool& result) {
+    if (!value.is_boolean()) {
+        refuse(field, value, "true or false");
+    }
+    result = value.get<bool>();
 }
 
 void read(const Json& value, const std::string& field, std::optional<Rgb>& result) {
@@ -284,6 +292,20 @@ template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& m
     visit("specular", material.specular);
 }
 
+// OpenPBR's names, which a file may use in place of those above.
+template <typename Visit> void visitOpenPbr(OpenPbr& surface, Visit visit) {
+    visit("base_color", surface.baseColor);
+    visit("subsurface_weight", surface.subsurfaceWeight);
+    visit("subsurface_color", surface.subsurfaceColor);
+    visit("subsurface_radius", surface.subsurfaceRadius);
+    visit("subsurface_radius_scale", surface.subsurfaceRadiusScale);
+    visit("subsurface_scatter_anisotropy", surface.subsurfaceAnisotropy);
+    visit("specular_weight", surface.specularWeight);
+    visit("specular_roughness", surface.specularRoughness);
+    visit("specular_ior", surface.specularIor);
+    visit("geometry_thin_walled", surface.thinWalled);
+}
+
 Json format(AlbedoUse use) {
     return albedoUseNames[static_cast<std::size_t>(use)].second;
 }
@@ -339,8 +361,33 @@ void addLayersOfSlabs(Material& material, const Json& json) {
     material.specular = json.contains("specular") ? material.specular : described.specular;
 }
 
+// What OpenPBR says: a profile of its own, and the members that the file does not give by their own names.
+void addOpenPbr(Material& material, const OpenPbr& surface, const Json& json) {
+    for (const char* other : {"layers", "meanFreePath", "slabs"}) {
+        if (json.contains(other)) {
+            throw FileError(std::string("subsurface_weight and ") + other +
+                            " are both given, only one may describe the profile");
+        }
+    }
+    if (const std::string fault = findFault(surface); !fault.empty()) {
+        throw FileError(fault);
+    }
+    const Material described = materialOf(surface);
+    const auto take = [&json](const char* key, auto& member, const auto& value) {
+        member = json.contains(key) ? member : value;
+    };
+    material.meanFreePath = described.meanFreePath;
+    take("strength", material.strength, described.strength);
+    take("diffuseTransmission", material.diffuseTransmission, described.diffuseTransmission);
+    take("albedo", material.albedo, described.albedo);
+    take("roughness", material.roughness, described.roughness);
+    take("specular", material.specular, described.specular);
+}
+
 Material readMaterial(const Json& json) {
     Material material;
+    OpenPbr surface;
+    std::string ofOpenPbr;
     readObject(json, "", [&](const std::string& key, const std::string& name, const Json& value) {
         bool known = key == "$schema";
         visitMembers(material, [&](const char* member, auto& result) {
@@ -349,8 +396,21 @@ Material readMaterial(const Json& json) {
                 known = true;
             }
         });
+        visitOpenPbr(surface, [&](const char* member, auto& result) {
+            if (key == member) {
+                read(value, name, result);
+                ofOpenPbr = key;
+                known = true;
+            }
+        });
         return known;
     });
+    if (!ofOpenPbr.empty() && !json.contains("subsurface_weight")) {
+        throw FileError("subsurface_weight is missing, which " + ofOpenPbr + " needs");
+    }
+    if (!ofOpenPbr.empty()) {
+        addOpenPbr(material, surface, json);
+    }
     if (!material.slabs.empty()) {
         addLayersOfSlabs(material, json);
     }

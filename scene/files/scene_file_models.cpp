@@ -3,6 +3,7 @@
 #include "scene/files/scene_file_material.hpp"
 #include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
+#include "scene/length_units.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,12 +15,6 @@ namespace {
 
 /// The model that no file holds.
 constexpr const char* galleryName = "gallery";
-
-struct Unit {
-    const char* name;
-    double metres;
-};
-constexpr std::array units{Unit{"m", 1}, Unit{"cm", 0.01}, Unit{"mm", 0.001}, Unit{"in", 0.0254}, Unit{"ft", 0.3048}};
 
 glm::vec3 readScale(SceneFileObject& model) {
     const nlohmann::json* value = model.member("scale");
@@ -196,11 +191,11 @@ void SceneFileModels::addModel(SceneFileObject& object, std::uint32_t entry) {
     }
     const std::string key = keyOf(object, source);
     Scene model = take(object, source, key);
-    std::array<const char*, units.size()> unitNames{};
-    std::ranges::transform(units, unitNames.begin(), &Unit::name);
+    std::array<const char*, lengthUnits.size()> unitNames{};
+    std::ranges::transform(lengthUnits, unitNames.begin(), &LengthUnit::name);
     const std::size_t unit = object.choice("units", 0, unitNames);
     if (object.has("units")) {
-        model.metersPerUnit = units[unit].metres;
+        model.metersPerUnit = lengthUnits[unit].metres;
         std::erase_if(model.notes, [](const std::string& note) { return note.find(unitNote) != std::string::npos; });
     }
     keepInstances(object, model);
