@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,12 +43,12 @@ public:
         float length() const { return high - low; }
         float center() const { return 0.5f * (low + high); }
     };
-    /// The vertices of an instance in world space, and what they are along its first triangle's normal.
+    /// The outline of an instance in world space, and what it is along its first triangle's normal.
     struct Body {
         std::vector<glm::vec3> points;
-        glm::vec3 normal{0}; ///< zero where no triangle has an area
-        Interval own{};      ///< along the normal
-        Interval all{};      ///< the whole scene along it
+        glm::vec3 normal{0};         ///< zero where no triangle has an area
+        Interval own{};              ///< along the normal
+        std::optional<Interval> all; ///< the whole scene along it, of flat bodies
     };
     /// A light in its place; its shadow layers count from 0.
     struct Placed {
@@ -57,6 +58,7 @@ public:
     };
 
 private:
+    void findGrounds();
     Placed placeAnew(const scene::Light& light) const;
     LightSet gather(const std::vector<Placed>& placed) const;
 

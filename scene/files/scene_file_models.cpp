@@ -278,7 +278,8 @@ void SceneFileModels::append(Scene model, const glm::dmat4& transform, const std
 }
 
 void SceneFileModels::takeOver(Scene model) {
-    budget_.charge(model.instances.size() * sizeof(Instance));
+    std::ranges::for_each(model.instances, [this](const Instance& instance) { budget_.charge(instance); });
+    budget_.charge(model.lights.size() * sizeof(Light) + model.cameras.size() * sizeof(Camera));
     const auto move = [](auto& from, auto& to) { std::ranges::move(from, std::back_inserter(to)); };
     move(model.textures, scene_.textures);
     move(model.materials, scene_.materials);

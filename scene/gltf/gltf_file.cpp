@@ -327,6 +327,7 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
     completeSkins(document);
     parseModel(file, document);
     decodeMeshoptViews(file);
+    file.mostWithoutView = mostGltfElementsWithoutView(file);
     return file;
 }
 
