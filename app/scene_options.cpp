@@ -46,6 +46,11 @@ void addValue(CLI::App& command, const char* group, const char* name, Value& val
 void SceneOptionParser::addScene(CLI::App& command) {
     command.add_option("SCENE", options_.input, "A scene file or a model; without it the built-in gallery")
         ->type_name("");
+    command
+        .add_option("--time", time_,
+                    "Show the pose that a glTF's first animation has then; default the pose of the file")
+        ->type_name("SECONDS")
+        ->allow_extra_args(false);
 }
 
 void SceneOptionParser::addPicture(CLI::App& command, const std::string& samplesNote) {
@@ -87,6 +92,10 @@ SceneOptions SceneOptionParser::finish() const {
     }
     if (back_) {
         options.lights.emplace_back("back");
+    }
+    if (time_) {
+        requireRange(*time_, 0, 1e6, "--time");
+        options.time = time_;
     }
     options.cameraPosition = parsePoint(cameraPosition_, "--camera-position");
     options.cameraTarget = parsePoint(cameraTarget_, "--camera-target");

@@ -25,6 +25,7 @@ struct SceneOptions {
     std::string camera;              ///< a camera's name or number; empty = the scene's first
     std::optional<glm::vec3> cameraPosition;
     std::optional<glm::vec3> cameraTarget;
+    std::optional<double> time;       ///< [s] of a glTF animation; absent: the pose of the file
     std::optional<float> fieldOfView; ///< [rad] vertical
 };
 
@@ -34,7 +35,7 @@ inline constexpr std::uint32_t maxSamples = 4;
 /// Adds the options to a command, a group at a time. They are in `finish` once the command line has been parsed.
 class SceneOptionParser {
 public:
-    /// The positional argument.
+    /// The positional argument, and --time.
     void addScene(CLI::App& command);
     /// --size, --samples and --material, to the group "Picture". samplesNote ends the description of --samples.
     void addPicture(CLI::App& command, const std::string& samplesNote);
@@ -51,6 +52,7 @@ private:
     std::string size_ = "1280x720";
     std::string cameraPosition_;
     std::string cameraTarget_;
+    std::optional<double> time_;
     std::optional<double> fieldOfView_; ///< [degrees]
     bool front_ = false;
     bool back_ = false;

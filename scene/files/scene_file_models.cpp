@@ -138,9 +138,9 @@ std::string keyOf(const SceneFileObject& object, const std::string& source) {
     return source == galleryName ? source : std::filesystem::canonical(fileOf(object, source)).string();
 }
 
-Scene loadNamed(const SceneFileObject& object, const std::string& source) {
+Scene loadNamed(const SceneFileObject& object, const std::string& source, std::optional<double> time) {
     const std::filesystem::path target = fileOf(object, source);
-    Scene model = loadModel(target);
+    Scene model = loadModel(target, time);
     model.inputs.push_back(target.string());
     return model;
 }
@@ -252,7 +252,7 @@ void SceneFileModels::charge(const Scene& model, const std::string& key) {
 Scene SceneFileModels::take(const SceneFileObject& object, const std::string& source, const std::string& key) {
     const auto [model, isNew] = models_.try_emplace(key);
     if (isNew) {
-        model->second = source == galleryName ? makeGallery() : loadNamed(object, source);
+        model->second = source == galleryName ? makeGallery() : loadNamed(object, source, time_);
     }
     return --placements_[key] == 0 ? std::move(model->second) : model->second;
 }

@@ -299,7 +299,7 @@ std::span<const std::uint8_t> readUri(const GltfFile& file, const std::string& u
     return file.named->read(decodePercents(uri), file.path.string() + ": " + field);
 }
 
-GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, GltfAnimations animations) {
     GltfFile file(path);
     const Container container = openContainer(file, bytes);
     Json document = parseJson(file, container.json);
@@ -320,7 +320,9 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
     for (std::size_t i = 0; i < images.size(); ++i) {
         file.images.push_back(readImage(file, images[i], "images[" + std::to_string(i) + "]"));
     }
-    document.erase("animations");
+    if (animations == GltfAnimations::Skipped) {
+        document.erase("animations");
+    }
     checkGltfTypes(file, document);
     keepWideIntegers(document);
     dropDracoIndices(document);

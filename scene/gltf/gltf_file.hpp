@@ -46,9 +46,12 @@ struct GltfFile {
 /// has, beside which it stands.
 std::size_t mostGltfElementsWithoutView(const GltfFile& file);
 
+/// Whether a file's animations are parsed: they can be most of it.
+enum class GltfAnimations { Skipped, Read };
+
 /// The container, the structure, the buffers and the compressed buffer views. `bytes` have to stay where they are for
 /// as long as the result is used.
-GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, GltfAnimations animations);
 
 /// Throws SceneError: "FILE: what".
 [[noreturn]] void failGltf(const GltfFile& file, const std::string& what);

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_import.hpp"
 
+#include "scene/gltf/gltf_animation.hpp"
 #include "scene/gltf/gltf_instancing.hpp"
 #include "scene/gltf/gltf_light.hpp"
 #include "scene/gltf/gltf_material.hpp"
@@ -271,8 +272,11 @@ private:
 
 } // namespace
 
-Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-    const GltfFile file = openGltf(path, bytes);
+Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::optional<double> time) {
+    GltfFile file = openGltf(path, bytes, time ? GltfAnimations::Read : GltfAnimations::Skipped);
+    if (time) {
+        poseAt(file, *time);
+    }
     Scene scene;
     scene.name = path.stem().string();
     GltfImporter(file, scene).run();
