@@ -13,7 +13,7 @@ namespace nacre {
 namespace {
 
 /// A run of TGA has up to 128 pixels. stb_image makes up what a file lacks.
-constexpr std::uint64_t mostPixelsPerByte = 128;
+constexpr std::uint64_t mostBitmapPixelsPerByte = 128;
 
 /// What comes across before the samples.
 struct BitmapSize {
@@ -34,7 +34,8 @@ IntegerImage decodeBitmapHere(std::span<const std::uint8_t> bytes, const std::st
         throw FileError(name + ": is not a PNG, JPEG, WebP, BMP or TGA image that can be read");
     }
     requireShowable(name, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
-    if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > mostPixelsPerByte * bytes.size()) {
+    if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) >
+        mostBitmapPixelsPerByte * bytes.size()) {
         throw FileError(name + ": the BMP or TGA image is cut off: " + std::to_string(bytes.size()) +
                         " bytes cannot hold " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
     }

@@ -11,7 +11,7 @@ namespace nacre {
 namespace {
 
 /// Runs take 2 bytes for up to 127 values of one of four channels.
-constexpr std::size_t mostPixelsPerByte = 16;
+constexpr std::size_t mostHdrPixelsPerByte = 16;
 
 /// Takes one scanline from `rest`, plain or in runs; false when it is not whole.
 bool takeScanline(std::span<const std::uint8_t>& rest, std::span<std::uint8_t> rgbe) {
@@ -107,7 +107,7 @@ Image decodeHdr(std::span<const std::uint8_t> bytes, const std::string& name) {
     const auto [width, height, scanlines] = readHeader(bytes, name);
     requireReadable(name, width, height, 3);
     Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {"R", "G", "B"}, {}};
-    image.values.reserve(3 * std::min(image.pixelCount(), mostPixelsPerByte * scanlines.size()));
+    image.values.reserve(3 * std::min(image.pixelCount(), mostHdrPixelsPerByte * scanlines.size()));
     std::vector<std::uint8_t> rgbe(std::size_t{image.width} * 4);
     std::span<const std::uint8_t> rest = scanlines;
     for (std::int64_t row = 0; row < height; ++row) {
