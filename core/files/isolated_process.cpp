@@ -77,7 +77,7 @@ bool sendOutcome(int pipe, Outcome outcome, std::span<const std::uint8_t> bytes)
     } catch (const std::exception& error) {
         const std::string_view sentence = error.what();
         isSent = sendOutcome(pipe, Outcome::Error,
-                                 {reinterpret_cast<const std::uint8_t*>(sentence.data()), sentence.size()});
+                             {reinterpret_cast<const std::uint8_t*>(sentence.data()), sentence.size()});
     }
     ::_exit(isSent ? 0 : EIO);
 }

@@ -312,6 +312,10 @@ TEST_F(ImageFile, ExrMayNotClaimLongAttributes) {
     found[23] = 0x70;
     EXPECT_EQ(errorOf([&] { decodeImage(exr, "a.exr"); }),
               "a.exr: the OpenEXR header is damaged: its attribute \"lineOrder\" is longer than the file");
+    found[23] = 0;
+    found[20] = 2;
+    EXPECT_EQ(errorOf([&] { decodeImage(exr, "a.exr"); }),
+              "a.exr: the OpenEXR header is damaged: its attribute \"lineOrder\" has not the size of its type");
 }
 
 TEST_F(ImageFile, RefusesSizesThatDoNotFit) {
