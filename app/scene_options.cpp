@@ -46,6 +46,9 @@ void addValue(CLI::App& command, const char* group, const char* name, Value& val
 void SceneOptionParser::addScene(CLI::App& command) {
     command.add_option("SCENE", options_.input, "A scene file or a model; without it the built-in gallery")
         ->type_name("");
+}
+
+void SceneOptionParser::addTime(CLI::App& command) {
     command
         .add_option("--time", time_,
                     "Show the pose that a glTF's first animation has then; default the pose of the file")

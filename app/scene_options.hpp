@@ -35,8 +35,10 @@ inline constexpr std::uint32_t maxSamples = 4;
 /// Adds the options to a command, a group at a time. They are in `finish` once the command line has been parsed.
 class SceneOptionParser {
 public:
-    /// The positional argument, and --time.
+    /// The positional argument.
     void addScene(CLI::App& command);
+    /// --time.
+    void addTime(CLI::App& command);
     /// --size, --samples and --material, to the group "Picture". samplesNote ends the description of --samples.
     void addPicture(CLI::App& command, const std::string& samplesNote);
     /// --front, --back and --light.

@@ -1,5 +1,6 @@
 #include "nacre/files.hpp"
 
+#include "core/files/json_structure.hpp"
 #include "core/files/open_pbr.hpp"
 #include "nacre/layering.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace nacre {
 namespace {
@@ -39,22 +39,12 @@ constexpr int maxDepth = 16;
 
 // Text that is JSON and gives no key twice.
 Json parseJson(std::string_view text) {
-    std::vector<std::set<std::string>> keys;
-    const auto check = [&](int depth, Json::parse_event_t event, const Json& parsed) {
-        if (depth > maxDepth) {
-            throw FileError("is nested deeper than " + std::to_string(maxDepth) + " levels");
-        }
-        if (event == Json::parse_event_t::object_start) {
-            keys.emplace_back();
-        } else if (event == Json::parse_event_t::object_end) {
-            keys.pop_back();
-        } else if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
-            throw FileError("the key \"" + parsed.get<std::string>() + "\" is given twice");
-        }
-        return true;
-    };
+    JsonStructure<Json> structure(
+        maxDepth, [] { throw FileError("is nested deeper than " + std::to_string(maxDepth) + " levels"); },
+        [](const std::string& key) { throw FileError("the key \"" + key + "\" is given twice"); });
     try {
-        return Json::parse(text, check);
+        Json::sax_parse(text, &structure);
+        return Json::parse(text);
     } catch (const Json::exception& error) {
         throw FileError(withoutPrefix(error.what()));
     }

@@ -8,13 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <fstream>
 
 using namespace nacre::scene;
 using nacre::test::GltfBuilder;
 using Json = nlohmann::json;
-using Seconds = std::chrono::duration<double>;
 
 namespace {
 
@@ -25,14 +24,19 @@ constexpr int many = 10'000;
 constexpr int many = 100'000;
 #endif
 
+/// Of processor time.
+double secondsSince(std::clock_t start) {
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
 /// Loads as a command does, and holds it to the seconds.
 Scene load(GltfBuilder& builder, double seconds) {
     const std::vector<std::uint8_t> bytes = builder.glb();
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     Scene scene = loadGltf("many.glb", bytes);
     fitLights(scene);
     addMissingViewAndLights(scene);
-    EXPECT_LT(Seconds(std::chrono::steady_clock::now() - start).count(), seconds);
+    EXPECT_LT(secondsSince(start), seconds);
     return scene;
 }
 
@@ -96,7 +100,7 @@ TEST(Many, Materials) {
     }
     builder.json["meshes"][0]["primitives"] = std::move(primitives);
     builder.json["materials"] = std::move(materials);
-    EXPECT_EQ(load(builder, 5).surfaces.size(), static_cast<std::size_t>(many));
+    EXPECT_EQ(load(builder, 10).surfaces.size(), static_cast<std::size_t>(many));
 }
 
 TEST(Many, AccessorsWithoutViews) {
@@ -110,7 +114,7 @@ TEST(Many, AccessorsWithoutViews) {
     builder.json["accessors"] = std::move(accessors);
     builder.json["meshes"] = std::move(meshes);
     setNodes(builder, many, [](int i) { return Json{{"mesh", i}}; });
-    EXPECT_EQ(load(builder, 5).meshes.size(), static_cast<std::size_t>(many));
+    EXPECT_EQ(load(builder, 10).meshes.size(), static_cast<std::size_t>(many));
 }
 
 TEST(Many, ModelsOfASceneFile) {
@@ -124,10 +128,10 @@ TEST(Many, ModelsOfASceneFile) {
         models.push_back({{"model", "square.glb"}, {"translate", {i, 0, 0}}});
     }
     const std::string text = Json{{"models", models}}.dump();
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     const Scene scene =
         readSceneFile(folder.path / "many.json", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    EXPECT_LT(Seconds(std::chrono::steady_clock::now() - start).count(), 10);
+    EXPECT_LT(secondsSince(start), 10);
     EXPECT_EQ(scene.instances.size(), static_cast<std::size_t>(many));
     EXPECT_EQ(scene.meshes.size(), 1u);
 }
