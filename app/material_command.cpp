@@ -7,10 +7,13 @@
 #include "app/terminal_text.hpp"
 #include "nacre/files.hpp"
 #include "nacre/presets.hpp"
+#include "scene/length_units.hpp"
+#include "scene/materialx/materialx_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <iomanip>
 #include <iostream>
@@ -122,6 +125,38 @@ void showMaterial(const ShowOptions& options) {
     }
 }
 
+std::vector<std::string> unitNames() {
+    std::vector<std::string> names;
+    std::ranges::transform(scene::lengthUnits, std::back_inserter(names), &scene::LengthUnit::name);
+    return names;
+}
+
+struct ImportOptions {
+    std::filesystem::path document;
+    std::string name;
+    std::string units;
+    std::filesystem::path json;
+};
+
+void importMaterial(const ImportOptions& options) {
+    requireDistinctFiles({options.document, options.json});
+    if (!options.json.empty()) {
+        checkWritable(options.json);
+    }
+    const auto* unit = std::ranges::find(scene::lengthUnits, std::string_view(options.units),
+                                         [](const auto& known) { return std::string_view(known.name); });
+    const auto metersPerUnit = unit != scene::lengthUnits.end() ? std::optional(unit->metres) : std::nullopt;
+    const auto [material, notes] = scene::importMaterialX(options.document, options.name, metersPerUnit);
+    if (options.json.empty()) {
+        std::cout << describeMaterial(material);
+    } else {
+        writeText(options.json, formatMaterial(material));
+    }
+    for (const std::string& note : notes) {
+        std::cerr << "nacre: note: " << printable(note) << '\n';
+    }
+}
+
 void checkMaterials(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) {
         const Material material = loadMaterial(file);
@@ -154,6 +189,28 @@ void addShow(CLI::App& material) {
     command->callback([options] { showMaterial(*options); });
 }
 
+void addImport(CLI::App& material) {
+    CLI::App* command = material.add_subcommand(
+        "import", "Read a subsurface material of a MaterialX document: open_pbr_surface or standard_surface");
+    command->footer(R"(Examples:
+  nacre material import wax.mtlx
+  nacre material import wax.mtlx --json wax.json         to render with: nacre render bunny.obj --material wax.json
+  nacre material import heads.mtlx --name skin --units cm --json skin.json)");
+    const auto options = std::make_shared<ImportOptions>();
+    command->add_option("FILE", options->document, "A MaterialX document (.mtlx)")->required()->type_name("");
+    command
+        ->add_option("--name", options->name,
+                     "The shader node or surfacematerial to read, of a document with several shader nodes")
+        ->type_name("NAME");
+    command
+        ->add_option("--units", options->units,
+                     "What lengths are in whose input has no unit: m, cm, mm, in or ft; cm by default, with a note")
+        ->type_name("UNIT")
+        ->check(CLI::IsMember(unitNames()));
+    addJsonOption(*command, options->json);
+    command->callback([options] { importMaterial(*options); });
+}
+
 void addCheck(CLI::App& material) {
     CLI::App* command = material.add_subcommand("check", "Check material files: exit code 0 when all are valid");
     command->footer("Examples:\n  nacre material check my-skin.json\n  nacre material check materials/*.json");
@@ -167,16 +224,18 @@ void addCheck(CLI::App& material) {
 } // namespace
 
 void addMaterial(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("material", "List, show, check and fit subsurface materials");
+    CLI::App* command = app.add_subcommand("material", "List, show, import, check and fit subsurface materials");
     command->require_subcommand(1);
     command->footer(R"(Examples:
   nacre material list
   nacre material show skin --json my-skin.json
+  nacre material import wax.mtlx --json wax.json
   nacre material check my-skin.json
   nacre material fit my-skin.json
   nacre render bunny.obj --material my-skin.json)");
     addList(*command);
     addShow(*command);
+    addImport(*command);
     addCheck(*command);
     addMaterialFit(*command);
 }

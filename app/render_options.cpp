@@ -100,6 +100,7 @@ RenderOptionParser::RenderOptionParser(CLI::App& command) {
         command.add_flag(name, value, description)->group(group);
     };
     scene_.addScene(command);
+    scene_.addTime(command);
     const std::string picture = "Picture";
     add(picture, "-o,--output", options_.output,
         "FILE.png (sRGB) or FILE.exr (linear, before exposure and tone curve); default " + options_.output.string(),

@@ -130,7 +130,10 @@ Scene makeScene(const SceneOptions& options) {
     if (!options.material.empty()) {
         material = readMaterial(options.material);
     }
-    Scene scene = options.input.empty() ? scene::makeGallery() : scene::load(options.input);
+    if (options.time && options.input.empty()) {
+        throw UsageError("--time needs a scene with an animation, and the gallery has none");
+    }
+    Scene scene = options.input.empty() ? scene::makeGallery() : scene::load(options.input, options.time);
     for (const std::string& note : std::set(scene.notes.begin(), scene.notes.end())) {
         std::cerr << "nacre: note: " << printable(note) << '\n';
     }

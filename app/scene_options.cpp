@@ -48,6 +48,14 @@ void SceneOptionParser::addScene(CLI::App& command) {
         ->type_name("");
 }
 
+void SceneOptionParser::addTime(CLI::App& command) {
+    command
+        .add_option("--time", time_,
+                    "Show the pose that a glTF's first animation has then; default the pose of the file")
+        ->type_name("SECONDS")
+        ->allow_extra_args(false);
+}
+
 void SceneOptionParser::addPicture(CLI::App& command, const std::string& samplesNote) {
     const char* const picture = "Picture";
     addValue(command, picture, "--size", size_, "Pixels; default " + size_, "WxH");
@@ -87,6 +95,10 @@ SceneOptions SceneOptionParser::finish() const {
     }
     if (back_) {
         options.lights.emplace_back("back");
+    }
+    if (time_) {
+        requireRange(*time_, 0, 1e6, "--time");
+        options.time = time_;
     }
     options.cameraPosition = parsePoint(cameraPosition_, "--camera-position");
     options.cameraTarget = parsePoint(cameraTarget_, "--camera-target");

@@ -25,6 +25,7 @@ struct SceneOptions {
     std::string camera;              ///< a camera's name or number; empty = the scene's first
     std::optional<glm::vec3> cameraPosition;
     std::optional<glm::vec3> cameraTarget;
+    std::optional<double> time;       ///< [s] of a glTF animation; absent: the pose of the file
     std::optional<float> fieldOfView; ///< [rad] vertical
 };
 
@@ -36,6 +37,8 @@ class SceneOptionParser {
 public:
     /// The positional argument.
     void addScene(CLI::App& command);
+    /// --time.
+    void addTime(CLI::App& command);
     /// --size, --samples and --material, to the group "Picture". samplesNote ends the description of --samples.
     void addPicture(CLI::App& command, const std::string& samplesNote);
     /// --front, --back and --light.
@@ -51,6 +54,7 @@ private:
     std::string size_ = "1280x720";
     std::string cameraPosition_;
     std::string cameraTarget_;
+    std::optional<double> time_;
     std::optional<double> fieldOfView_; ///< [degrees]
     bool front_ = false;
     bool back_ = false;

@@ -9,8 +9,8 @@
 
 namespace nacre {
 
-/// Most pixels of a float image (1 GiB as RGBA).
-inline constexpr std::uint64_t maxFloatPixels = std::uint64_t{1} << 26;
+/// Most pixels of a float image (512 MiB as RGBA).
+inline constexpr std::uint64_t maxFloatPixels = std::uint64_t{1} << 25;
 
 /// Throws FileError unless a float image of that size may be read.
 void requireReadable(const std::string& name, std::int64_t width, std::int64_t height, std::size_t channels);
@@ -23,6 +23,7 @@ enum class ExrChannels { All, Color };
 
 Image decodeExr(std::span<const std::uint8_t> bytes, const std::string& name, ExrChannels wanted);
 Image decodeHdr(std::span<const std::uint8_t> bytes, const std::string& name);
+
 /// A picture of whole numbers, as its file has it.
 struct IntegerImage {
     std::uint32_t width = 0;
@@ -41,10 +42,12 @@ bool isWebp(std::span<const std::uint8_t> bytes);
 IntegerImage decodePng(std::span<const std::uint8_t> bytes, const std::string& name);
 IntegerImage decodeJpeg(std::span<const std::uint8_t> bytes, const std::string& name);
 IntegerImage decodeWebp(std::span<const std::uint8_t> bytes, const std::string& name);
-/// BMP and TGA.
+/// BMP and TGA, in a child process.
 IntegerImage decodeBitmap(std::span<const std::uint8_t> bytes, const std::string& name);
+/// The same in this process.
+IntegerImage decodeBitmapHere(std::span<const std::uint8_t> bytes, const std::string& name);
 
-/// Any of the four, with 8 or 16 bits.
+/// Any of these, with 8 or 16 bits.
 Image decodeShown(std::span<const std::uint8_t> bytes, const std::string& name);
 
 } // namespace nacre

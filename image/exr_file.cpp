@@ -99,6 +99,66 @@ std::vector<std::string> wantedNames(const Imf::ChannelList& list, ExrChannels w
     return names;
 }
 
+/// Attributes that OpenEXR reads so many bytes of, whatever the file says.
+struct FixedAttribute {
+    std::string_view type;
+    std::uint32_t size;
+};
+constexpr std::array fixedAttributes{
+    FixedAttribute{"box2f", 16},   FixedAttribute{"box2i", 16},      FixedAttribute{"chromaticities", 32},
+    FixedAttribute{"double", 8},   FixedAttribute{"compression", 1}, FixedAttribute{"deepImageState", 1},
+    FixedAttribute{"envmap", 1},   FixedAttribute{"float", 4},       FixedAttribute{"int", 4},
+    FixedAttribute{"keycode", 28}, FixedAttribute{"lineOrder", 1},   FixedAttribute{"m33d", 72},
+    FixedAttribute{"m33f", 36},    FixedAttribute{"m44d", 128},      FixedAttribute{"m44f", 64},
+    FixedAttribute{"rational", 8}, FixedAttribute{"tiledesc", 9},    FixedAttribute{"timecode", 8},
+    FixedAttribute{"v2d", 16},     FixedAttribute{"v2f", 8},         FixedAttribute{"v2i", 8},
+    FixedAttribute{"v3d", 24},     FixedAttribute{"v3f", 12},        FixedAttribute{"v3i", 12}};
+
+/// Takes what stands before the next zero.
+std::string takeText(std::span<const std::uint8_t>& bytes) {
+    std::string text(bytes.begin(), std::ranges::find(bytes, 0));
+    bytes = bytes.subspan(std::min(text.size() + 1, bytes.size()));
+    return text;
+}
+
+/// Whether the list of channels takes all of its bytes.
+bool isWholeChannelList(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t channelSize = 16; // after its name
+    while (!bytes.empty() && bytes[0] != 0) {
+        takeText(bytes);
+        bytes = bytes.subspan(std::min(channelSize, bytes.size()));
+    }
+    return bytes.size() == 1;
+}
+
+bool hasItsSize(std::span<const std::uint8_t> value, const std::string& type) {
+    const auto* fixed = std::ranges::find(fixedAttributes, type, &FixedAttribute::type);
+    return (fixed == fixedAttributes.end() || fixed->size == value.size()) &&
+           (type != "chlist" || isWholeChannelList(value));
+}
+
+/// Throws where an attribute of the header is larger than the file, or has another size than OpenEXR reads: it makes
+/// room for what an attribute claims before it reads it.
+void requireWholeHeader(std::span<const std::uint8_t> bytes, const std::string& name) {
+    constexpr std::size_t start = 8; // after the magic number and the version
+    bytes = bytes.subspan(std::min(start, bytes.size()));
+    for (std::string attribute = takeText(bytes); !attribute.empty(); attribute = takeText(bytes)) {
+        const std::string type = takeText(bytes);
+        std::uint32_t size = 0;
+        const bool hasSize = bytes.size() >= sizeof(size);
+        for (std::size_t i = 0; hasSize && i < sizeof(size); ++i) {
+            size |= std::uint32_t{bytes[i]} << (8 * i);
+        }
+        bytes = bytes.subspan(std::min(sizeof(size), bytes.size()));
+        const bool isInFile = hasSize && size <= bytes.size();
+        if (!isInFile || !hasItsSize(bytes.first(size), type)) {
+            throw FileError(name + ": the OpenEXR header is damaged: its attribute \"" + attribute.substr(0, 60) +
+                            (isInFile ? "\" has not the size of its type" : "\" is longer than the file"));
+        }
+        bytes = bytes.subspan(size);
+    }
+}
+
 void requireKnownKind(MemoryInput& input, const std::string& name) {
     bool isTiled = false;
     bool isDeep = false;
@@ -188,6 +248,7 @@ Image decodeExr(std::span<const std::uint8_t> bytes, const std::string& name, Ex
     }();
     static_cast<void>(isBounded);
     try {
+        requireWholeHeader(bytes, name);
         MemoryInput input(bytes);
         return decode(input, name, wanted);
     } catch (const Iex::BaseExc& error) {

@@ -3,11 +3,15 @@
 #include "nacre/files.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <stb/stb_image.h>
+#include <string_view>
 
 namespace nacre {
 namespace {
+
+/// Runs take 2 bytes for up to 127 values of one of four channels.
+constexpr std::size_t mostHdrPixelsPerByte = 16;
 
 /// Takes one scanline from `rest`, plain or in runs; false when it is not whole.
 bool takeScanline(std::span<const std::uint8_t>& rest, std::span<std::uint8_t> rgbe) {
@@ -44,35 +48,69 @@ bool takeScanline(std::span<const std::uint8_t>& rest, std::span<std::uint8_t> r
     return true;
 }
 
-/// What follows the empty line that ends the header, and the line with the size after it.
-std::span<const std::uint8_t> scanlinesOf(std::span<const std::uint8_t> bytes) {
-    const auto headerEnd = std::ranges::adjacent_find(
-        bytes, [](std::uint8_t one, std::uint8_t next) { return one == '\n' && next == '\n'; });
-    const auto afterHeader = headerEnd + std::min<std::ptrdiff_t>(2, bytes.end() - headerEnd);
-    const auto sizeEnd = std::find(afterHeader, bytes.end(), '\n');
-    return {sizeEnd + (sizeEnd == bytes.end() ? 0 : 1), bytes.end()};
+struct Header {
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+    std::span<const std::uint8_t> scanlines; ///< what follows
+};
+
+/// The text up to the next end of line, which it takes from `rest` with it.
+std::string_view takeLine(std::span<const std::uint8_t>& rest) {
+    const auto end = std::ranges::find(rest, '\n');
+    const auto length = static_cast<std::size_t>(end - rest.begin());
+    const std::string_view line(reinterpret_cast<const char*>(rest.data()), length);
+    rest = rest.subspan(std::min(length + 1, rest.size()));
+    return line;
+}
+
+/// Takes "NAME NUMBER" from the beginning of a line; -1 where there is something else.
+std::int64_t takeSide(std::string_view& line, std::string_view name) {
+    std::int64_t side = -1;
+    if (line.starts_with(name)) {
+        line.remove_prefix(name.size());
+        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), side);
+        line.remove_prefix(error == std::errc() ? static_cast<std::size_t>(end - line.data()) : line.size());
+        side = error == std::errc() ? side : -1;
+    }
+    return side;
+}
+
+Header readHeader(std::span<const std::uint8_t> rest, const std::string& name) {
+    bool isRgbe = false;
+    for (std::string_view line = takeLine(rest); !line.empty(); line = takeLine(rest)) {
+        isRgbe = isRgbe || line == "FORMAT=32-bit_rle_rgbe";
+    }
+    if (!isRgbe) {
+        throw FileError(name + ": the Radiance header has no line FORMAT=32-bit_rle_rgbe");
+    }
+    std::string_view line = takeLine(rest);
+    const std::string shown(line.substr(0, 60));
+    Header header;
+    header.height = takeSide(line, "-Y ");
+    header.width = takeSide(line, " +X ");
+    if (header.height < 0 || header.width < 0 || !line.empty()) {
+        throw FileError(name + ": the Radiance header gives the size as \"" + shown +
+                        "\", must be \"-Y height +X width\"");
+    }
+    header.scanlines = rest;
+    return header;
 }
 
 } // namespace
 
 bool isHdr(std::span<const std::uint8_t> bytes) {
-    return stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n");
 }
 
-/// stb_image knows the header; it would wait without end for the scanlines that a file lacks.
 Image decodeHdr(std::span<const std::uint8_t> bytes, const std::string& name) {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0) {
-        throw FileError(name + ": the Radiance header is damaged: " + stbi_failure_reason());
-    }
+    const auto [width, height, scanlines] = readHeader(bytes, name);
     requireReadable(name, width, height, 3);
     Image image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {"R", "G", "B"}, {}};
-    image.values.reserve(image.pixelCount() * 3);
+    image.values.reserve(3 * std::min(image.pixelCount(), mostHdrPixelsPerByte * scanlines.size()));
     std::vector<std::uint8_t> rgbe(std::size_t{image.width} * 4);
-    std::span<const std::uint8_t> rest = scanlinesOf(bytes);
-    for (int row = 0; row < height; ++row) {
+    std::span<const std::uint8_t> rest = scanlines;
+    for (std::int64_t row = 0; row < height; ++row) {
         if (!takeScanline(rest, rgbe)) {
             throw FileError(name + ": the Radiance file is damaged or cut off in row " + std::to_string(row) + " of " +
                             std::to_string(height));

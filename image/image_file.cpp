@@ -11,7 +11,10 @@ namespace nacre {
 namespace {
 
 /// The channels R, G, B and A, of which alpha may be missing; of one channel, grey.
-Image toRgba(const Image& image, const std::string& name) {
+Image toRgba(Image image, const std::string& name) {
+    if (image.channels == std::vector<std::string>{"R", "G", "B", "A"}) {
+        return image; // which may be too large to have twice
+    }
     const bool isGrey = image.channels.size() == 1;
     std::array<std::optional<std::size_t>, 4> places{0, 0, 0, std::nullopt};
     const std::vector<std::string> rgba{"R", "G", "B", "A"};
@@ -46,26 +49,32 @@ void requireReadable(const std::string& name, std::int64_t width, std::int64_t h
     }
 }
 
-Image readImage(const std::filesystem::path& file) {
-    const std::vector<std::uint8_t> bytes = readFile(file);
+Image decodeImage(std::span<const std::uint8_t> bytes, const std::string& name) {
     if (isSmallEnough(bytes) && isExr(bytes)) {
-        return decodeExr(bytes, file.string(), ExrChannels::All);
+        return decodeExr(bytes, name, ExrChannels::All);
     }
-    if (isSmallEnough(bytes) && isHdr(bytes)) {
-        return decodeHdr(bytes, file.string());
+    if (isHdr(bytes)) {
+        return decodeHdr(bytes, name);
     }
-    return decodeShown(bytes, file.string());
+    return decodeShown(bytes, name);
+}
+
+Image decodeRadiance(std::span<const std::uint8_t> bytes, const std::string& name) {
+    if (isSmallEnough(bytes) && isExr(bytes)) {
+        return toRgba(decodeExr(bytes, name, ExrChannels::Color), name);
+    }
+    if (isHdr(bytes)) {
+        return toRgba(decodeHdr(bytes, name), name);
+    }
+    throw FileError(name + ": is neither an OpenEXR nor a Radiance .hdr image");
+}
+
+Image readImage(const std::filesystem::path& file) {
+    return decodeImage(readFile(file), file.string());
 }
 
 Image readRadiance(const std::filesystem::path& file) {
-    const std::vector<std::uint8_t> bytes = readFile(file);
-    if (isSmallEnough(bytes) && isExr(bytes)) {
-        return toRgba(decodeExr(bytes, file.string(), ExrChannels::Color), file.string());
-    }
-    if (isSmallEnough(bytes) && isHdr(bytes)) {
-        return toRgba(decodeHdr(bytes, file.string()), file.string());
-    }
-    throw FileError(file.string() + ": is neither an OpenEXR nor a Radiance .hdr image");
+    return decodeRadiance(readFile(file), file.string());
 }
 
 void writeImage(const std::filesystem::path& file, const Image& image) {

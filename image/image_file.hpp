@@ -20,6 +20,10 @@ Image readImage(const std::filesystem::path& file);
 /// channel fills red, green and blue with it.
 Image readRadiance(const std::filesystem::path& file);
 
+/// readImage and readRadiance of a file that is in memory; `name` is what an error calls it.
+Image decodeImage(std::span<const std::uint8_t> bytes, const std::string& name);
+Image decodeRadiance(std::span<const std::uint8_t> bytes, const std::string& name);
+
 /// How writeExr stores a channel: 16-bit half (relative precision 2⁻¹¹, up to 65504) or 32-bit float.
 enum class ExrPrecision { Half, Float };
 

@@ -10,8 +10,8 @@
 namespace nacre {
 namespace {
 
-/// Most pixels of an 8-bit image (512 MiB as RGBA).
-constexpr std::uint64_t maxBytePixels = std::uint64_t{1} << 27;
+/// Most pixels of an 8-bit image (256 MiB as RGBA): a small file can unfold to so many.
+constexpr std::uint64_t maxBytePixels = std::uint64_t{1} << 26;
 /// Its sizes have 16 bits.
 constexpr std::uint32_t maxJpegSide = 65535;
 

@@ -2,12 +2,14 @@
 
 #include "renderer/camera.hpp"
 #include "renderer/graphics_device.hpp"
+#include "scene/outline.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -31,12 +33,16 @@ constexpr float nearToRange = 1e-8f;
 
 using Body = LightPlacement::Body;
 
-std::vector<glm::vec3> worldPoints(const scene::Scene& scene, const scene::Instance& instance) {
-    std::vector<glm::vec3> points;
-    for (const scene::Vertex& vertex : scene.meshes.at(instance.mesh).vertices) {
-        points.emplace_back(instance.transform * glm::vec4(vertex.position, 1));
-    }
-    return points;
+/// Thickness of a flat body over the scene's extent.
+constexpr float flatShare = 1e-4f;
+/// How many points may be looked at to find flat grounds.
+constexpr std::size_t mostPointVisits = std::size_t{1} << 28;
+
+std::vector<glm::vec3> worldPoints(const scene::Outline& outline, const scene::Instance& instance) {
+    const std::span<const glm::vec3> points = outline.of(instance.mesh);
+    std::vector<glm::vec3> result(points.size());
+    std::ranges::transform(points, result.begin(), [&](const glm::vec3& point) { return placed(instance, point); });
+    return result;
 }
 
 Interval extent(const std::vector<const Body*>& bodies, const glm::vec3& axis) {
@@ -68,10 +74,13 @@ bool shadowsNothing(const Body& body, const glm::vec3& direction) {
     if (body.normal == glm::vec3(0)) {
         return true;
     }
+    if (!body.all) {
+        return false;
+    }
     const bool turned = glm::dot(body.normal, direction) > 0; // the lit side is the other one
     const float ownLow = turned ? -body.own.high : body.own.low;
-    const float allLow = turned ? -body.all.high : body.all.low;
-    const float tolerance = 1e-4f * std::max(body.all.length(), 1e-6f);
+    const float allLow = turned ? -body.all->high : body.all->low;
+    const float tolerance = flatShare * std::max(body.all->length(), 1e-6f);
     return body.own.length() <= tolerance && allLow >= ownLow - tolerance;
 }
 
@@ -114,6 +123,19 @@ void copy(float (&target)[3], const glm::vec3& value) {
 
 void setShadowClip(NacreLight& light, const glm::mat4& clipFromWorld) {
     std::copy_n(glm::value_ptr(clipFromWorld), 16, light.shadowClipFromWorld);
+}
+
+/// The diagonal of the box of all points.
+float sizeOf(std::span<const Body> bodies) {
+    glm::vec3 low(std::numeric_limits<float>::max());
+    glm::vec3 high(std::numeric_limits<float>::lowest());
+    for (const Body& body : bodies) {
+        for (const glm::vec3& point : body.points.points()) {
+            low = glm::min(low, point);
+            high = glm::max(high, point);
+        }
+    }
+    return bodies.empty() ? 0.0f : glm::distance(low, high);
 }
 
 std::vector<const Body*> pointers(std::span<const Body> bodies) {
@@ -263,20 +285,40 @@ NacreLightKind convert(const scene::Light& light) {
 LightPlacement::LightPlacement(const scene::Scene& scene, std::uint32_t shadowMapSize)
     : metersPerUnit_(static_cast<float>(scene.metersPerUnit)),
       margin_(2 * filterMargin / static_cast<float>(std::max(shadowMapSize, 1u))) {
+    const scene::Outline outline(scene);
     for (const scene::Instance& instance : scene.instances) {
-        std::vector<glm::vec3> points = worldPoints(scene, instance);
+        std::vector<glm::vec3> points = worldPoints(outline, instance);
         Body body;
         body.shinesThrough = scene.surfaces.at(scene.meshes.at(instance.mesh).surface).material != scene::none;
         body.normal = anyNormal(points);
         body.points = PointClusters(std::move(points));
+        body.own = extent({&body}, body.normal);
         bodies_.push_back(std::move(body));
     }
-    const std::vector<const Body*> all = pointers(bodies_);
-    for (Body& body : bodies_) {
-        body.own = extent({&body}, body.normal);
-        body.all = extent(all, body.normal);
-    }
+    findGrounds();
     place(scene.lights);
+}
+
+/// Among very many flat bodies only the largest are looked at: a ground is large.
+void LightPlacement::findGrounds() {
+    const float mostThickness = 2 * flatShare * std::max(sizeOf(bodies_), 1e-6f);
+    std::vector<Body*> flat;
+    std::size_t points = 1;
+    for (Body& body : bodies_) {
+        points += body.points.points().size();
+        if (body.normal != glm::vec3(0) && body.own.length() <= mostThickness) {
+            flat.push_back(&body);
+        }
+    }
+    const std::size_t count = std::min(flat.size(), std::max<std::size_t>(mostPointVisits / points, 1));
+    const auto size = [](const Body* body) { return sizeOf({body, 1}); };
+    if (count < flat.size()) {
+        std::ranges::nth_element(flat, flat.begin() + static_cast<std::ptrdiff_t>(count), std::ranges::greater(), size);
+    }
+    const std::vector<const Body*> all = pointers(bodies_);
+    for (std::size_t i = 0; i < count; ++i) {
+        flat[i]->all = extent(all, flat[i]->normal);
+    }
 }
 
 LightPlacement::Placed LightPlacement::placeAnew(const scene::Light& light) const {

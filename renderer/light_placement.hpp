@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,13 +38,13 @@ public:
     void place(std::span<const scene::Light> lights);
     const LightSet& placed() const { return set_; }
 
-    /// The vertices of an instance in world space, and what they are along its first triangle's normal.
+    /// The outline of an instance in world space, and what it is along its first triangle's normal.
     struct Body {
         PointClusters points;
-        glm::vec3 normal{0};        ///< zero where no triangle has an area
-        Interval own{};             ///< along the normal
-        Interval all{};             ///< the whole scene along it
-        bool shinesThrough = false; ///< has a subsurface material
+        glm::vec3 normal{0};         ///< zero where no triangle has an area
+        Interval own{};              ///< along the normal
+        std::optional<Interval> all; ///< the whole scene along it, of flat bodies
+        bool shinesThrough = false;  ///< has a subsurface material
     };
     /// A light in its place; its shadow layers count from 0.
     struct Placed {
@@ -53,6 +54,7 @@ public:
     };
 
 private:
+    void findGrounds();
     Placed placeAnew(const scene::Light& light) const;
     LightSet gather(const std::vector<Placed>& placed) const;
 

@@ -24,6 +24,8 @@ public:
     PointClusters(PointClusters&&) = default;
     PointClusters& operator=(PointClusters&&) = default;
 
+    /// All of them, in an order of their own.
+    std::span<const glm::vec3> points() const { return points_; }
     /// What `interval` holds and the points along `axis`, to the last bit as if all of them were looked at.
     Interval extend(const Interval& interval, const glm::vec3& axis) const;
     /// The larger of `distance` and that of the point farthest from `place`.

@@ -1,5 +1,7 @@
 #include "scene/default_view.hpp"
 
+#include "scene/outline.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,13 +9,13 @@
 namespace nacre::scene {
 namespace {
 
-/// Largest distance of a vertex from `center`.
+/// Largest distance of a point of the outline from `center`.
 float reach(const Scene& scene, const glm::vec3& center) {
+    const Outline outline(scene);
     float result = 0;
     for (const Instance& instance : scene.instances) {
-        for (const Vertex& vertex : scene.meshes[instance.mesh].vertices) {
-            result =
-                std::max(result, glm::distance(glm::vec3(instance.transform * glm::vec4(vertex.position, 1)), center));
+        for (const glm::vec3& point : outline.of(instance.mesh)) {
+            result = std::max(result, glm::distance(placed(instance, point), center));
         }
     }
     return result;

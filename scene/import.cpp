@@ -58,8 +58,16 @@ void tellOrigin(Scene& scene, const std::filesystem::path& file) {
     }
 }
 
-Scene readModel(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, Format format) {
-    return format == Format::Gltf ? loadGltf(file, bytes) : loadWithAssimp(file);
+Scene readModel(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, Format format,
+                std::optional<double> time) {
+    if (format == Format::Gltf) {
+        return loadGltf(file, bytes, time);
+    }
+    Scene scene = loadWithAssimp(file);
+    if (time) {
+        scene.notes.push_back(file.string() + ": is not a glTF 2.0 file; its animations are not read");
+    }
+    return scene;
 }
 
 } // namespace
@@ -68,22 +76,22 @@ bool isSceneFile(const std::filesystem::path& file) {
     return formatOf(file, readFile(file)) == Format::SceneFile;
 }
 
-Scene loadModel(const std::filesystem::path& file) {
+Scene loadModel(const std::filesystem::path& file, std::optional<double> time) {
     const std::vector<std::uint8_t> bytes = readFile(file);
     const Format format = formatOf(file, bytes);
     if (format == Format::SceneFile) {
         throw SceneError(file.string() + ": is not a model");
     }
-    return readModel(file, bytes, format);
+    return readModel(file, bytes, format, time);
 }
 
-Scene load(const std::filesystem::path& file) {
+Scene load(const std::filesystem::path& file, std::optional<double> time) {
     const std::vector<std::uint8_t> bytes = readFile(file);
     const Format format = formatOf(file, bytes);
     if (format == Format::SceneFile) {
-        return readSceneFile(file, bytes);
+        return readSceneFile(file, bytes, time);
     }
-    Scene scene = readModel(file, bytes, format);
+    Scene scene = readModel(file, bytes, format, time);
     fitLights(scene);
     tellOrigin(scene, file);
     addMissingViewAndLights(scene);

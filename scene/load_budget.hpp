@@ -24,6 +24,7 @@ public:
     void charge(const Mesh& mesh) {
         charge(mesh.vertices.size() * sizeof(Vertex) + mesh.indices.size() * sizeof(mesh.indices[0]));
     }
+    void charge(const Instance& instance) { charge(sizeof(Instance) + instance.name.size()); }
     void charge(const Texture& texture) { charge(texture.pixels.size()); }
 
 private:

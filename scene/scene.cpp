@@ -1,13 +1,16 @@
 #include "scene/scene.hpp"
 
+#include "scene/outline.hpp"
+
 namespace nacre::scene {
 
 Bounds bounds(const Scene& scene) {
+    const Outline outline(scene);
     Bounds result;
     bool empty = true;
     for (const Instance& instance : scene.instances) {
-        for (const Vertex& vertex : scene.meshes.at(instance.mesh).vertices) {
-            const glm::vec3 position(instance.transform * glm::vec4(vertex.position, 1));
+        for (const glm::vec3& point : outline.of(instance.mesh)) {
+            const glm::vec3 position = placed(instance, point);
             result.low = glm::min(result.low, position);
             result.high = glm::max(result.high, position);
             empty = false;

@@ -155,7 +155,7 @@ struct Bounds {
     float radius() const { return 0.5f * glm::length(high - low); }
 };
 
-/// Bounds of all instances in scene units; an empty scene throws SceneError.
+/// Bounds of all instances in scene units, a little wide of very many (outline.hpp); an empty scene throws SceneError.
 Bounds bounds(const Scene& scene);
 
 /// Triangles over all instances.

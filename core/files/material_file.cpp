@@ -1,12 +1,13 @@
 #include "nacre/files.hpp"
 
+#include "core/files/json_structure.hpp"
+#include "core/files/open_pbr.hpp"
 #include "nacre/layering.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace nacre {
 namespace {
@@ -38,22 +39,12 @@ constexpr int maxDepth = 16;
 
 // Text that is JSON and gives no key twice.
 Json parseJson(std::string_view text) {
-    std::vector<std::set<std::string>> keys;
-    const auto check = [&](int depth, Json::parse_event_t event, const Json& parsed) {
-        if (depth > maxDepth) {
-            throw FileError("is nested deeper than " + std::to_string(maxDepth) + " levels");
-        }
-        if (event == Json::parse_event_t::object_start) {
-            keys.emplace_back();
-        } else if (event == Json::parse_event_t::object_end) {
-            keys.pop_back();
-        } else if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
-            throw FileError("the key \"" + parsed.get<std::string>() + "\" is given twice");
-        }
-        return true;
-    };
+    JsonStructure<Json> structure(
+        maxDepth, [] { throw FileError("is nested deeper than " + std::to_string(maxDepth) + " levels"); },
+        [](const std::string& key) { throw FileError("the key \"" + key + "\" is given twice"); });
     try {
-        return Json::parse(text, check);
+        Json::sax_parse(text, &structure);
+        return Json::parse(text);
     } catch (const Json::exception& error) {
         throw FileError(withoutPrefix(error.what()));
     }
@@ -105,6 +96,13 @@ void read(const Json& value, const std::string& field, AlbedoUse& result) {
         }
     }
     refuse(field, value, "\"post\" or \"preAndPost\"");
+}
+
+void read(const Json& value, const std::string& field, bool& result) {
+    if (!value.is_boolean()) {
+        refuse(field, value, "true or false");
+    }
+    result = value.get<bool>();
 }
 
 void read(const Json& value, const std::string& field, std::optional<Rgb>& result) {
@@ -286,6 +284,20 @@ template <typename AnyMaterial, typename Visit> void visitMembers(AnyMaterial& m
     visit("secondLobeRoughness", material.secondLobeRoughness);
 }
 
+// OpenPBR's names, which a file may use in place of those above.
+template <typename Visit> void visitOpenPbr(OpenPbr& surface, Visit visit) {
+    visit("base_color", surface.baseColor);
+    visit("subsurface_weight", surface.subsurfaceWeight);
+    visit("subsurface_color", surface.subsurfaceColor);
+    visit("subsurface_radius", surface.subsurfaceRadius);
+    visit("subsurface_radius_scale", surface.subsurfaceRadiusScale);
+    visit("subsurface_scatter_anisotropy", surface.subsurfaceAnisotropy);
+    visit("specular_weight", surface.specularWeight);
+    visit("specular_roughness", surface.specularRoughness);
+    visit("specular_ior", surface.specularIor);
+    visit("geometry_thin_walled", surface.thinWalled);
+}
+
 Json format(AlbedoUse use) {
     return albedoUseNames[static_cast<std::size_t>(use)].second;
 }
@@ -341,8 +353,33 @@ void addLayersOfSlabs(Material& material, const Json& json) {
     material.specular = json.contains("specular") ? material.specular : described.specular;
 }
 
+// What OpenPBR says: a profile of its own, and the members that the file does not give by their own names.
+void addOpenPbr(Material& material, const OpenPbr& surface, const Json& json) {
+    for (const char* other : {"layers", "meanFreePath", "slabs"}) {
+        if (json.contains(other)) {
+            throw FileError(std::string("subsurface_weight and ") + other +
+                            " are both given, only one may describe the profile");
+        }
+    }
+    if (const std::string fault = findFault(surface); !fault.empty()) {
+        throw FileError(fault);
+    }
+    const Material described = materialOf(surface);
+    const auto take = [&json](const char* key, auto& member, const auto& value) {
+        member = json.contains(key) ? member : value;
+    };
+    material.meanFreePath = described.meanFreePath;
+    take("strength", material.strength, described.strength);
+    take("diffuseTransmission", material.diffuseTransmission, described.diffuseTransmission);
+    take("albedo", material.albedo, described.albedo);
+    take("roughness", material.roughness, described.roughness);
+    take("specular", material.specular, described.specular);
+}
+
 Material readMaterial(const Json& json) {
     Material material;
+    OpenPbr surface;
+    std::string ofOpenPbr;
     readObject(json, "", [&](const std::string& key, const std::string& name, const Json& value) {
         bool known = key == "$schema";
         visitMembers(material, [&](const char* member, auto& result) {
@@ -351,8 +388,21 @@ Material readMaterial(const Json& json) {
                 known = true;
             }
         });
+        visitOpenPbr(surface, [&](const char* member, auto& result) {
+            if (key == member) {
+                read(value, name, result);
+                ofOpenPbr = key;
+                known = true;
+            }
+        });
         return known;
     });
+    if (!ofOpenPbr.empty() && !json.contains("subsurface_weight")) {
+        throw FileError("subsurface_weight is missing, which " + ofOpenPbr + " needs");
+    }
+    if (!ofOpenPbr.empty()) {
+        addOpenPbr(material, surface, json);
+    }
     if (!material.slabs.empty()) {
         addLayersOfSlabs(material, json);
     }

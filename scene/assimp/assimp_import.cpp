@@ -54,7 +54,9 @@ public:
         if (scene_.instances.empty()) {
             throw SceneError(name_ + ": has no triangles");
         }
-        chooseUnit();
+        const Bounds box = bounds(scene_);
+        center_ = box.center();
+        chooseUnit(2.0 * static_cast<double>(box.radius()));
         for (const aiLight* light : std::span(source_.mLights, source_.mNumLights)) {
             addLight(*light);
         }
@@ -156,7 +158,8 @@ private:
         return meshes_[index] = static_cast<std::uint32_t>(scene_.meshes.size() - 1);
     }
 
-    void chooseUnit() {
+    /// By the scene's size in its own units, where the format does not say.
+    void chooseUnit(double size) {
         if (extension_ == ".3mf") {
             scene_.metersPerUnit = threemfMetersPerUnit(name_);
             return;
@@ -171,7 +174,6 @@ private:
         };
         constexpr std::array units{Unit{"metres", 1}, Unit{"centimetres", 0.01}, Unit{"millimetres", 0.001}};
         constexpr double largest = 5;
-        const double size = 2.0 * static_cast<double>(bounds(scene_).radius());
         const auto* unit = std::ranges::find_if(units, [&](const Unit& u) { return size * u.metres < largest; });
         unit = unit == units.end() ? unit - 1 : unit;
         scene_.metersPerUnit = unit->metres;
@@ -213,7 +215,7 @@ private:
         // Fixed-function lighting has no 1/π: a white surface facing a light of 1 is white.
         light.intensity = strength * std::numbers::pi_v<float>;
         if (light.kind != LightKind::Directional) {
-            const float units = glm::distance(position, bounds(scene_).center());
+            const float units = glm::distance(position, center_);
             const float falloff = source.mAttenuationConstant + source.mAttenuationLinear * units +
                                   source.mAttenuationQuadratic * units * units;
             const float metres = units * static_cast<float>(scene_.metersPerUnit);
@@ -255,6 +257,7 @@ private:
     AssimpMaterials materials_;
     std::vector<std::uint32_t> meshes_;
     std::map<std::string, glm::mat4> placed_;
+    glm::vec3 center_{0}; ///< of everything that was placed
 };
 
 Scene importFile(const std::filesystem::path& file) {
@@ -295,7 +298,7 @@ Scene loadWithAssimp(const std::filesystem::path& file) {
     if (error) {
         throw SceneError(file.string() + ": cannot be read: " + error.message());
     }
-    return runIsolated(file.string(), limitsFor(size), [&file] {
+    return importIsolated(file.string(), limitsFor(size), [&file] {
         try {
             return importFile(file);
         } catch (const SceneError&) {

@@ -14,7 +14,8 @@ namespace {
 
 class SceneFileReader {
 public:
-    SceneFileReader(const std::filesystem::path& file, SceneFileObject root) : path_(file), root_(std::move(root)) {}
+    SceneFileReader(const std::filesystem::path& file, SceneFileObject root, std::optional<double> time)
+        : path_(file), root_(std::move(root)), time_(time) {}
 
     Scene read() {
         root_.text("$schema");
@@ -26,7 +27,7 @@ public:
         if (models.empty()) {
             root_.refuse("models", "an array with at least one model");
         }
-        SceneFileModels(path_.string(), scene_).add(models);
+        SceneFileModels(path_.string(), scene_, time_).add(models);
         std::vector<Light> lights;
         for (SceneFileObject& light : root_.objects("lights")) {
             lights.push_back(readLight(light));
@@ -110,14 +111,16 @@ private:
 
     std::filesystem::path path_;
     SceneFileObject root_;
+    std::optional<double> time_;
     Scene scene_;
 };
 
 } // namespace
 
-Scene readSceneFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+Scene readSceneFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
+                    std::optional<double> time) {
     const nlohmann::json json = parseSceneJson(file.string(), bytes);
-    return SceneFileReader(file, SceneFileObject(json, file.string(), "")).read();
+    return SceneFileReader(file, SceneFileObject(json, file.string(), ""), time).read();
 }
 
 } // namespace nacre::scene

@@ -3,6 +3,7 @@
 #include "scene/files/scene_file_material.hpp"
 #include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
+#include "scene/length_units.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,12 +15,6 @@ namespace {
 
 /// The model that no file holds.
 constexpr const char* galleryName = "gallery";
-
-struct Unit {
-    const char* name;
-    double metres;
-};
-constexpr std::array units{Unit{"m", 1}, Unit{"cm", 0.01}, Unit{"mm", 0.001}, Unit{"in", 0.0254}, Unit{"ft", 0.3048}};
 
 glm::vec3 readScale(SceneFileObject& model) {
     const nlohmann::json* value = model.member("scale");
@@ -143,9 +138,9 @@ std::string keyOf(const SceneFileObject& object, const std::string& source) {
     return source == galleryName ? source : std::filesystem::canonical(fileOf(object, source)).string();
 }
 
-Scene loadNamed(const SceneFileObject& object, const std::string& source) {
+Scene loadNamed(const SceneFileObject& object, const std::string& source, std::optional<double> time) {
     const std::filesystem::path target = fileOf(object, source);
-    Scene model = loadModel(target);
+    Scene model = loadModel(target, time);
     model.inputs.push_back(target.string());
     return model;
 }
@@ -196,11 +191,11 @@ void SceneFileModels::addModel(SceneFileObject& object, std::uint32_t entry) {
     }
     const std::string key = keyOf(object, source);
     Scene model = take(object, source, key);
-    std::array<const char*, units.size()> unitNames{};
-    std::ranges::transform(units, unitNames.begin(), &Unit::name);
+    std::array<const char*, lengthUnits.size()> unitNames{};
+    std::ranges::transform(lengthUnits, unitNames.begin(), &LengthUnit::name);
     const std::size_t unit = object.choice("units", 0, unitNames);
     if (object.has("units")) {
-        model.metersPerUnit = units[unit].metres;
+        model.metersPerUnit = lengthUnits[unit].metres;
         std::erase_if(model.notes, [](const std::string& note) { return note.find(unitNote) != std::string::npos; });
     }
     keepInstances(object, model);
@@ -257,7 +252,7 @@ void SceneFileModels::charge(const Scene& model, const std::string& key) {
 Scene SceneFileModels::take(const SceneFileObject& object, const std::string& source, const std::string& key) {
     const auto [model, isNew] = models_.try_emplace(key);
     if (isNew) {
-        model->second = source == galleryName ? makeGallery() : loadNamed(object, source);
+        model->second = source == galleryName ? makeGallery() : loadNamed(object, source, time_);
     }
     return --placements_[key] == 0 ? std::move(model->second) : model->second;
 }
@@ -283,7 +278,8 @@ void SceneFileModels::append(Scene model, const glm::dmat4& transform, const std
 }
 
 void SceneFileModels::takeOver(Scene model) {
-    budget_.charge(model.instances.size() * sizeof(Instance));
+    std::ranges::for_each(model.instances, [this](const Instance& instance) { budget_.charge(instance); });
+    budget_.charge(model.lights.size() * sizeof(Light) + model.cameras.size() * sizeof(Camera));
     const auto move = [](auto& from, auto& to) { std::ranges::move(from, std::back_inserter(to)); };
     move(model.textures, scene_.textures);
     move(model.materials, scene_.materials);

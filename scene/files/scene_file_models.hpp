@@ -13,8 +13,9 @@ namespace nacre::scene {
 /// meshes, surfaces and textures.
 class SceneFileModels {
 public:
-    /// The models are added to `scene`, whose metersPerUnit is known.
-    SceneFileModels(const std::string& file, Scene& scene) : scene_(scene), budget_(file) {}
+    /// The models are added to `scene`, whose metersPerUnit is known; `time` as for loadModel.
+    SceneFileModels(const std::string& file, Scene& scene, std::optional<double> time)
+        : scene_(scene), time_(time), budget_(file) {}
 
     void add(std::vector<SceneFileObject>& models);
 
@@ -36,6 +37,7 @@ private:
     void takeOver(Scene model);
 
     Scene& scene_;
+    std::optional<double> time_;
     LoadBudget budget_;
     std::map<std::string, int> placements_; ///< with looks of their own, that are left, of each model by its key
     std::map<std::string, Scene> models_;   ///< by key

@@ -1,5 +1,6 @@
 #include "scene/files/scene_file_object.hpp"
 
+#include "core/files/json_structure.hpp"
 #include "scene/json_text.hpp"
 #include "scene/named_file.hpp"
 
@@ -188,22 +189,14 @@ void SceneFileObject::finish() const {
 }
 
 Json parseSceneJson(const std::string& file, std::span<const std::uint8_t> bytes) {
-    std::vector<std::set<std::string>> keys;
-    const auto check = [&](int depth, Json::parse_event_t event, const Json& parsed) {
-        if (depth > maxDepth) {
-            throw SceneError(file + ": is nested more than " + std::to_string(maxDepth) + " deep");
-        }
-        if (event == Json::parse_event_t::object_start) {
-            keys.emplace_back();
-        } else if (event == Json::parse_event_t::object_end) {
-            keys.pop_back();
-        } else if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
-            throw SceneError(file + ": the key " + parsed.dump() + " is given twice");
-        }
-        return true;
-    };
+    JsonStructure<Json> structure(
+        maxDepth, [&file] { throw SceneError(file + ": is nested more than " + std::to_string(maxDepth) + " deep"); },
+        [&file](const std::string& key) {
+            throw SceneError(file + ": the key " + Json(key).dump() + " is given twice");
+        });
     try {
-        return Json::parse(bytes.begin(), bytes.end(), check);
+        Json::sax_parse(bytes.begin(), bytes.end(), &structure);
+        return Json::parse(bytes.begin(), bytes.end());
     } catch (const Json::exception& error) {
         const std::string message = error.what(); // begins with "[json.exception.parse_error.101] "
         const std::size_t end = message.find("] ");

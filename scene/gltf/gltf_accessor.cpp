@@ -99,9 +99,21 @@ std::vector<std::uint32_t> readSparseIndices(const GltfFile& file, const tinyglt
     return indices;
 }
 
-/// Most elements of an accessor without a buffer view, which nothing in the file bears out: as many as one with a view
-/// has, beside which it stands.
-std::size_t mostWithoutView(const GltfFile& file) {
+void checkCount(const GltfFile& file, const tinygltf::Accessor& accessor, const std::string& name) {
+    const std::size_t most = accessor.bufferView >= 0 ? maxGltfElements : file.mostWithoutView;
+    if (accessor.count > most) {
+        failGltf(file,
+                 name + ".count is " + std::to_string(accessor.count) + ", must be at most " + std::to_string(most));
+    }
+}
+
+std::string nameOf(int accessor) {
+    return "accessors[" + std::to_string(accessor) + "]";
+}
+
+} // namespace
+
+std::size_t mostGltfElementsWithoutView(const GltfFile& file) {
     std::size_t bytes = 0;
     for (const auto& buffer : file.buffers) {
         bytes = std::max(bytes, buffer.size());
@@ -115,20 +127,6 @@ std::size_t mostWithoutView(const GltfFile& file) {
     }
     return std::min(most, maxGltfElements);
 }
-
-void checkCount(const GltfFile& file, const tinygltf::Accessor& accessor, const std::string& name) {
-    const std::size_t most = accessor.bufferView >= 0 ? maxGltfElements : mostWithoutView(file);
-    if (accessor.count > most) {
-        failGltf(file,
-                 name + ".count is " + std::to_string(accessor.count) + ", must be at most " + std::to_string(most));
-    }
-}
-
-std::string nameOf(int accessor) {
-    return "accessors[" + std::to_string(accessor) + "]";
-}
-
-} // namespace
 
 std::span<const std::uint8_t> slice(const GltfFile& file, std::span<const std::uint8_t> bytes, std::uint64_t offset,
                                     std::uint64_t size, const std::string& field) {

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_file.hpp"
 
+#include "core/files/json_structure.hpp"
 #include "scene/gltf/gltf_draco.hpp"
 #include "scene/gltf/gltf_import.hpp"
 #include "scene/gltf/gltf_material_extensions.hpp"
@@ -79,17 +80,25 @@ Container openContainer(const GltfFile& file, std::span<const std::uint8_t> byte
     return container;
 }
 
-/// The JSON without `extras`, which nothing here reads.
+/// Nothing here reads them.
+void dropExtras(Json& value) {
+    if (value.is_object()) {
+        value.erase("extras");
+    }
+    if (value.is_structured()) {
+        std::ranges::for_each(value, dropExtras);
+    }
+}
+
+/// The JSON without `extras`.
 Json parseJson(const GltfFile& file, std::span<const std::uint8_t> text) {
-    const auto filter = [&file](int depth, Json::parse_event_t event, Json& parsed) {
-        if (depth > maxJsonDepth) {
-            failGltf(file, "its JSON is nested more than " + std::to_string(maxJsonDepth) + " deep");
-        }
-        return event != Json::parse_event_t::key || parsed != "extras";
-    };
+    JsonStructure<Json> structure(maxJsonDepth, [&file] {
+        failGltf(file, "its JSON is nested more than " + std::to_string(maxJsonDepth) + " deep");
+    });
     Json json;
     try {
-        json = Json::parse(text.begin(), text.end(), filter);
+        Json::sax_parse(text.begin(), text.end(), &structure);
+        json = Json::parse(text.begin(), text.end());
     } catch (const Json::exception& error) {
         const std::string_view message = error.what();
         failGltf(file,
@@ -98,6 +107,7 @@ Json parseJson(const GltfFile& file, std::span<const std::uint8_t> text) {
     if (!json.is_object()) {
         failGltf(file, "is not a JSON object");
     }
+    dropExtras(json);
     return json;
 }
 
@@ -299,7 +309,7 @@ std::span<const std::uint8_t> readUri(const GltfFile& file, const std::string& u
     return file.named->read(decodePercents(uri), file.path.string() + ": " + field);
 }
 
-GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, GltfAnimations animations) {
     GltfFile file(path);
     const Container container = openContainer(file, bytes);
     Json document = parseJson(file, container.json);
@@ -320,13 +330,16 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
     for (std::size_t i = 0; i < images.size(); ++i) {
         file.images.push_back(readImage(file, images[i], "images[" + std::to_string(i) + "]"));
     }
-    document.erase("animations");
+    if (animations == GltfAnimations::Skipped) {
+        document.erase("animations");
+    }
     checkGltfTypes(file, document);
     keepWideIntegers(document);
     dropDracoIndices(document);
     completeSkins(document);
     parseModel(file, document);
     decodeMeshoptViews(file);
+    file.mostWithoutView = mostGltfElementsWithoutView(file);
     return file;
 }
 

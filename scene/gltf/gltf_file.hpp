@@ -37,13 +37,21 @@ struct GltfFile {
     std::shared_ptr<NamedFiles> named; ///< what other buffers and images refer to
     std::shared_ptr<LoadBudget> budget;
     std::vector<Bytes> decodedViews; ///< per buffer view; empty unless EXT_meshopt_compression
+    std::size_t mostWithoutView = 0; ///< mostGltfElementsWithoutView
     std::vector<GltfImage> images;
     std::vector<std::string> notes; ///< what the file has and nothing here reads
 };
 
+/// Most elements of an accessor without a buffer view, which nothing in the file bears out: as many as one with a view
+/// has, beside which it stands.
+std::size_t mostGltfElementsWithoutView(const GltfFile& file);
+
+/// Whether a file's animations are parsed: they can be most of it.
+enum class GltfAnimations { Skipped, Read };
+
 /// The container, the structure, the buffers and the compressed buffer views. `bytes` have to stay where they are for
 /// as long as the result is used.
-GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, GltfAnimations animations);
 
 /// Throws SceneError: "FILE: what".
 [[noreturn]] void failGltf(const GltfFile& file, const std::string& what);

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_import.hpp"
 
+#include "scene/gltf/gltf_animation.hpp"
 #include "scene/gltf/gltf_instancing.hpp"
 #include "scene/gltf/gltf_light.hpp"
 #include "scene/gltf/gltf_material.hpp"
@@ -188,6 +189,7 @@ private:
         const auto& weights = source.weights.empty() ? mesh.weights : source.weights;
         const glm::mat4 place = source.skin >= 0 ? glm::mat4(1) : transforms_[static_cast<std::size_t>(index)];
         const std::vector<glm::mat4> copies = readInstances(file_, source, nodeField(index));
+        file_.budget->charge(copies.size() * sizeof(copies[0]));
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             std::uint32_t target = none;
             if (own) {
@@ -206,6 +208,7 @@ private:
                 failGltf(file_, "places more than " + std::to_string(maxInstances) + " meshes");
             }
             const std::string& name = source.name.empty() ? mesh.name : source.name;
+            file_.budget->charge(copies.size() * (sizeof(Instance) + name.size()));
             for (const glm::mat4& copy : copies) {
                 scene_.instances.push_back({name, target, place * copy});
             }
@@ -222,7 +225,8 @@ private:
         if (read->indices.empty()) {
             return none;
         }
-        file_.budget->charge(read->vertexCount * sizeof(Vertex) + read->indices.size() * sizeof(read->indices[0]));
+        file_.budget->charge(read->vertexCount * sizeof(Vertex) + read->indices.size() * sizeof(read->indices[0]) +
+                             mesh.name.size());
         applyMorphTargets(file_, source.mesh, primitive, weights, *read);
         if (source.skin >= 0) {
             applySkin(file_, source.skin, transforms_, *read);
@@ -268,8 +272,11 @@ private:
 
 } // namespace
 
-Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-    const GltfFile file = openGltf(path, bytes);
+Scene loadGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::optional<double> time) {
+    GltfFile file = openGltf(path, bytes, time ? GltfAnimations::Read : GltfAnimations::Skipped);
+    if (time) {
+        poseAt(file, *time);
+    }
     Scene scene;
     scene.name = path.stem().string();
     GltfImporter(file, scene).run();

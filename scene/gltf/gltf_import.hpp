@@ -14,8 +14,9 @@ enum class GltfKind { None, Version1, Version2 };
 GltfKind gltfKind(std::span<const std::uint8_t> bytes);
 
 /// Reads glTF 2.0 or GLB. External buffers and images are looked for beside `file`. Skins are applied in the pose the
-/// nodes have, morph targets with their default weights; animations are left out.
-/// Throws SceneError with one sentence that names the file and the field.
-Scene loadGltf(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+/// nodes have, morph targets with their default weights; with a `time` [s], in those that the first animation gives
+/// them then (gltf_animation.hpp). Throws SceneError with one sentence that names the file and the field.
+Scene loadGltf(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
+               std::optional<double> time = std::nullopt);
 
 } // namespace nacre::scene

@@ -50,8 +50,9 @@ Wrap wrapOf(const GltfFile& file, int wrap, const std::string& field) {
     }
 }
 
-glm::vec3 linearMean(const Texture& texture) {
-    glm::dvec3 sum(0);
+/// Red, green and blue are linear; alpha is as it is.
+glm::vec4 linearMean(const Texture& texture) {
+    glm::dvec4 sum(0);
     const std::size_t count = texture.pixels.size() / 4;
     std::array<double, 256> linear{};
     for (std::size_t i = 0; i < linear.size(); ++i) {
@@ -60,9 +61,15 @@ glm::vec3 linearMean(const Texture& texture) {
     }
     for (std::size_t pixel = 0; pixel < count; ++pixel) {
         const std::uint8_t* rgba = &texture.pixels[pixel * 4];
-        sum += glm::dvec3(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]]);
+        sum += glm::dvec4(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]], rgba[3] / 255.0);
     }
-    return glm::vec3(sum / static_cast<double>(count));
+    return glm::vec4(sum / static_cast<double>(count));
+}
+
+void multiplyDiffuseTransmission(GltfMedium& medium, double factor) {
+    const bool isAll = medium.transmission == medium.thinTransmission; // of what enters
+    medium.thinTransmission *= factor;
+    medium.transmission = isAll ? medium.thinTransmission : medium.transmission;
 }
 
 void replaceLook(const GltfSpecularGlossiness& look, Surface& surface) {
@@ -169,14 +176,19 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfM
                                    const std::string& field, Surface& surface) {
     GltfMedium medium = extensions.medium;
     const bool textured = surface.baseColorTexture != none;
-    const std::uint32_t image = texture(extensions.multiscatterColorTexture, true);
-    if (image != none) { // a profile has one albedo
-        medium.multiscatterColor *= linearMean(scene_.textures[image]);
+    // A profile has one albedo, and a material one colour and one share of the light that comes through.
+    if (const std::uint32_t image = texture(extensions.multiscatterColorTexture, true); image != none) {
+        medium.multiscatterColor *= glm::vec3(mean(image));
     }
     const GltfTextureUse& through = extensions.diffuseTransmissionColorTexture;
-    if (const std::uint32_t colors = texture(through, true); colors != none) { // a material has one colour
-        *medium.transmissionColor *= linearMean(scene_.textures[colors]);
+    if (const std::uint32_t colors = texture(through, true); colors != none) {
+        *medium.transmissionColor *= glm::vec3(mean(colors));
         scene_.notes.push_back(file_.path.string() + ": " + through.field + " is averaged to one colour");
+    }
+    const GltfTextureUse& share = extensions.diffuseTransmissionTexture;
+    if (const std::uint32_t shares = texture(share, false); shares != none) {
+        multiplyDiffuseTransmission(medium, mean(shares).w);
+        scene_.notes.push_back(file_.path.string() + ": " + share.field + " is averaged to one share");
     }
     if (medium.thickness > 0) {
         surface.thickness = static_cast<float>(medium.thickness * 1000);
@@ -186,10 +198,10 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfM
         return;
     }
     const bool dense = medium.scatters && medium.multiscatterColor != glm::vec3(0);
-    const float share = static_cast<float>(dense ? material->strength : 0);
+    const float scattering = static_cast<float>(dense ? material->strength : 0);
     if (!textured && dense) {
         const glm::vec3 seen = medium.multiscatterColor * medium.transmissionColor.value_or(glm::vec3(1));
-        surface.baseColor = glm::vec4(glm::mix(glm::vec3(surface.baseColor), seen, share), surface.baseColor.w);
+        surface.baseColor = glm::vec4(glm::mix(glm::vec3(surface.baseColor), seen, scattering), surface.baseColor.w);
     }
     if (medium.thickness <= 0) {
         surface.thickness = static_cast<float>(thinWallThickness);
@@ -198,6 +210,14 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfM
     material->roughness = surface.roughness;
     material->specular = surface.specular;
     surface.material = addMaterial(scene_, std::move(*material), file_.path.string() + ": " + field);
+}
+
+const glm::vec4& GltfMaterials::mean(std::uint32_t texture) {
+    const auto [entry, isNew] = means_.try_emplace(texture);
+    if (isNew) {
+        entry->second = linearMean(scene_.textures[texture]);
+    }
+    return entry->second;
 }
 
 int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& field) {

@@ -27,6 +27,8 @@ private:
     /// The image of a texture; -1, with a note, where nothing that is read supplies one.
     int imageOf(const tinygltf::Texture& texture, const std::string& field);
     std::uint32_t texture(const GltfTextureUse& use, bool srgb);
+    /// Of a texture of the scene, worked out once.
+    const glm::vec4& mean(std::uint32_t texture);
 
     const GltfFile& file_;
     Scene& scene_;
@@ -34,6 +36,7 @@ private:
     std::vector<int> texCoords_;
     /// By where it is, sRGB and how it is sampled.
     std::map<std::tuple<std::string, bool, Wrap, Wrap, bool>, std::uint32_t> textures_;
+    std::map<std::uint32_t, glm::vec4> means_;
 };
 
 } // namespace nacre::scene

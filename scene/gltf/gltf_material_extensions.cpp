@@ -42,6 +42,7 @@ void readDiffuseTransmission(const GltfObject& extension, GltfMaterialExtensions
     medium.thinTransmission = extension.number("diffuseTransmissionFactor", 0, 0, 1);
     medium.transmission = std::max(medium.transmission, medium.thinTransmission);
     medium.transmissionColor = extension.color("diffuseTransmissionColorFactor", glm::vec3(1));
+    result.diffuseTransmissionTexture = extension.texture("diffuseTransmissionTexture");
     result.diffuseTransmissionColorTexture = extension.texture("diffuseTransmissionColorTexture");
 }
 

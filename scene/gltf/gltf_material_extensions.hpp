@@ -26,6 +26,7 @@ struct GltfMaterialExtensions {
     GltfMedium medium; ///< KHR_materials_volume and those that fill it
     GltfTextureUse thicknessTexture;
     GltfTextureUse multiscatterColorTexture;
+    GltfTextureUse diffuseTransmissionTexture; ///< in its alpha
     GltfTextureUse diffuseTransmissionColorTexture;
 };
 

@@ -128,6 +128,7 @@ void applyMorphTargets(const GltfFile& file, int mesh, std::size_t primitive, st
             }
             const std::string field = fieldOf(mesh, primitive) + ".targets[" + std::to_string(i) + "]." + semantic;
             const std::vector<float> offsets = readFloats(file, found->second, 3, field);
+            file.budget->charge(offsets.size() * sizeof(offsets[0]));
             if (offsets.size() != attribute->second.values.size()) {
                 failGltf(file, field + " has another count than the primitive");
             }
@@ -154,6 +155,7 @@ void applySkin(const GltfFile& file, int skin, std::span<const glm::mat4> nodeTr
         }
     }
     std::vector<glm::mat4> matrices(source.joints.size());
+    file.budget->charge(2 * matrices.size() * sizeof(matrices[0]));
     for (std::size_t i = 0; i < matrices.size(); ++i) {
         elementOf(file, file.model.nodes, source.joints[i], field + ".joints[" + std::to_string(i) + "]");
         matrices[i] = nodeTransforms[static_cast<std::size_t>(source.joints[i])];

@@ -69,6 +69,10 @@ constexpr std::array textureFields{Field{"/source", Type::Index}, Field{"/sample
 constexpr std::array samplerFields{Field{"/wrapS", Type::Index}, Field{"/wrapT", Type::Index},
                                    Field{"/magFilter", Type::Index}};
 constexpr std::array skinFields{Field{"/inverseBindMatrices", Type::Index}, Field{"/joints", Type::Indices}};
+constexpr std::array animationSamplerFields{Field{"/input", Type::Index}, Field{"/output", Type::Index},
+                                            Field{"/interpolation", Type::Text}};
+constexpr std::array channelFields{Field{"/sampler", Type::Index}, Field{"/target", Type::Object},
+                                   Field{"/target/node", Type::Index}, Field{"/target/path", Type::Text}};
 constexpr std::array lightFields{Field{"/color", Type::Numbers},
                                  Field{"/intensity", Type::Number},
                                  Field{"/range", Type::Number},
@@ -147,6 +151,17 @@ void checkAll(const GltfFile& file, const Json& parent, const std::string& key, 
     }
 }
 
+/// Checks the elements of the array `part` of every element of the document's array `key`.
+void checkParts(const GltfFile& file, const Json& document, const std::string& key, const std::string& part,
+                std::span<const Field> fields) {
+    const auto array = document.find(key);
+    for (std::size_t i = 0; array != document.end() && array->is_array() && i < array->size(); ++i) {
+        if ((*array)[i].is_object()) {
+            checkAll(file, (*array)[i], part, fields, key + "[" + std::to_string(i) + "].");
+        }
+    }
+}
+
 } // namespace
 
 bool isGltfIndex(const Json& value) {
@@ -168,12 +183,9 @@ void checkGltfTypes(const GltfFile& file, const Json& document) {
     if (document.contains(lights) && document[lights].is_object()) {
         checkAll(file, document[lights], "lights", lightFields, "extensions.KHR_lights_punctual.");
     }
-    const auto meshes = document.find("meshes");
-    for (std::size_t i = 0; meshes != document.end() && meshes->is_array() && i < meshes->size(); ++i) {
-        if ((*meshes)[i].is_object()) {
-            checkAll(file, (*meshes)[i], "primitives", primitiveFields, "meshes[" + std::to_string(i) + "].");
-        }
-    }
+    checkParts(file, document, "meshes", "primitives", primitiveFields);
+    checkParts(file, document, "animations", "samplers", animationSamplerFields);
+    checkParts(file, document, "animations", "channels", channelFields);
 }
 
 } // namespace nacre::scene

@@ -64,6 +64,25 @@ TEST_F(MaterialTest, ShowTellsRadiiAndTransmission) {
         << outcome.output;
 }
 
+TEST_F(MaterialTest, ImportReadsMaterialX) {
+    writeText(folder() / "wax.mtlx", R"(<materialx version="1.39"><open_pbr_surface name="wax">
+        <input name="subsurface_weight" type="float" value="1" /><input name="subsurface_radius" value="0.2" />
+        </open_pbr_surface></materialx>)");
+    const Outcome imported = run({"material", "import", "wax.mtlx", "--json", "wax.json"});
+    EXPECT_EQ(imported.exitCode, 0) << imported.error;
+    EXPECT_EQ(imported.error, "nacre: note: wax.mtlx: open_pbr_surface \"wax\": subsurface_radius has no unit; taken "
+                              "for centimetres\n");
+    nacre::test::expectMatchesSchema(readText(folder() / "wax.json"), "material.schema.json");
+    EXPECT_EQ(run({"material", "check", "wax.json"}).exitCode, 0);
+    const Outcome shown = run({"material", "import", "wax.mtlx", "--units", "mm"});
+    EXPECT_TRUE(shown.output.starts_with("wax: open_pbr_surface of wax.mtlx\n")) << shown.output;
+    EXPECT_EQ(shown.error, "");
+    nacre::test::expectComplaint(run({"material", "import", "wax.mtlx", "--name", "soap"}), 1, {"wax.mtlx", "soap"});
+    nacre::test::expectComplaint(run({"material", "import", "wax.mtlx", "--units", "ell"}), 2, {"--units", "ell"});
+    nacre::test::expectComplaint(run({"material", "import", "wax.mtlx", "--json", "./wax.mtlx"}), 2, {"same file"});
+    nacre::test::expectComplaint(run({"material", "import", "none.mtlx"}), 1, {"none.mtlx"});
+}
+
 constexpr const char* skinSlabs = R"([{"skin": {"melanin": 0.03}, "thickness": 0.1},
     {"skin": {"haemoglobin": 0.02, "water": 0.65}, "thickness": "infinite"}])";
 

@@ -175,4 +175,26 @@ TEST(GltfMeaning, HiddenNodesHideTheirChildren) {
         << builder.error();
 }
 
+// A material has one share and one colour of the light that comes through: those of the textures' means.
+TEST(GltfMeaning, DiffuseTransmissionHasTextures) {
+    const std::string pixel = // 255, 188, 0 and an alpha of 51
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4v4fBGAAGaAHvALWOcAAAAABJRU5ErkJggg==";
+    GltfBuilder builder = texturedSquare({{"extensions",
+                                           {{"KHR_materials_diffuse_transmission",
+                                             {{"diffuseTransmissionFactor", 0.5},
+                                              {"diffuseTransmissionTexture", {{"index", 0}}},
+                                              {"diffuseTransmissionColorFactor", {0.5, 0.5, 0.5}},
+                                              {"diffuseTransmissionColorTexture", {{"index", 0}}}}}}}});
+    builder.json["images"][0]["uri"] = pixel;
+    const Scene scene = builder.load();
+    const Material& material = scene.materials.at(0);
+    EXPECT_NEAR(material.diffuseTransmission, 0.5 * 51 / 255, 1e-6);
+    ASSERT_TRUE(material.diffuseTransmissionColor);
+    EXPECT_NEAR(material.diffuseTransmissionColor->at(0), 0.5, 1e-6);
+    EXPECT_NEAR(material.diffuseTransmissionColor->at(1), 0.5 * 0.5029, 1e-4); // sRGB
+    EXPECT_TRUE(hasNote(scene, "diffuseTransmissionTexture is averaged to one share"));
+    EXPECT_TRUE(hasNote(scene, "diffuseTransmissionColorTexture is averaged to one colour"));
+}
+
 } // namespace

@@ -96,6 +96,31 @@ TEST(GltfStrangers, MayNotUnfoldCompressedViews) {
     EXPECT_EQ(builder.error(), "test.glb: needs more than 512 MiB of memory, which its size does not explain");
 }
 
+// A thousand instances of a node whose name has a megabyte, and a thousand nodes that share a skin of as many joints.
+TEST(GltfStrangers, MayNotUnfoldByRepeating) {
+    GltfBuilder named;
+    named.setSquare();
+    const auto places = named.addFloats(std::vector<float>(30'000), "VEC3", 3);
+    named.json["nodes"][0]["name"] = std::string(1'000'000, 'n');
+    named.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+    EXPECT_TRUE(named.error().starts_with("test.glb: needs more than ")) << named.error().substr(0, 100);
+
+    constexpr int count = 5000;
+    GltfBuilder skinned;
+    auto& attributes = skinned.setSquare()["attributes"];
+    attributes["JOINTS_0"] =
+        skinned.addAccessor(skinned.addView(std::vector<std::uint8_t>(16, std::uint8_t{0})), 5121, 4, "VEC4");
+    attributes["WEIGHTS_0"] = skinned.addFloats(std::vector<float>(16, 0.25f), "VEC4", 4);
+    std::vector<int> joints(count);
+    for (int i = 0; i < count; ++i) {
+        joints[static_cast<std::size_t>(i)] = i;
+        skinned.json["nodes"][static_cast<std::size_t>(i)] = {{"mesh", 0}, {"skin", 0}};
+    }
+    skinned.json["scenes"][0]["nodes"] = joints;
+    skinned.json["skins"] = {{{"joints", joints}}};
+    EXPECT_TRUE(skinned.error().starts_with("test.glb: needs more than ")) << skinned.error().substr(0, 100);
+}
+
 TEST(GltfStrangers, MayTakeMemoryInProportion) {
     LoadBudget budget("file");
     budget.addInput(std::uint64_t{1} << 20);

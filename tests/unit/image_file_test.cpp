@@ -1,4 +1,5 @@
 // Image files: what is written is what is read, files appear whole or not at all, damage is a sentence.
+#include "core/files/isolated_process.hpp"
 #include "image/image_file.hpp"
 
 #include "nacre/files.hpp"
@@ -264,6 +265,57 @@ TEST_F(ImageFile, HdrDecodesRunsAndRefusesWhatIsCutOff) {
               std::string::npos);
     EXPECT_NE(errorOf([&] { decodeBytes(readFile(folder / "cut.hdr"), "cut.hdr"); }).find("cut.hdr"),
               std::string::npos);
+}
+
+TEST_F(ImageFile, HdrSaysWhatIsWrongWithItsHeader) {
+    const auto errorWith = [this](const std::string& text) {
+        store("header.hdr", std::vector<std::uint8_t>(text.begin(), text.end()));
+        return errorOf([&] { readRadiance(folder / "header.hdr"); });
+    };
+    const std::string pixel("\x80\x40\x00\x81", 4);
+    EXPECT_EQ(errorWith("#?RGBE\nEXPOSURE=1\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + pixel), "");
+    EXPECT_NE(errorWith("#?RADIANCE\n\n-Y 1 +X 1\n" + pixel).find("has no line FORMAT=32-bit_rle_rgbe"),
+              std::string::npos);
+    for (const std::string size :
+         {"+Y 1 +X 1", "-Y 1", "-Y 1 +X", "-Y -1 +X 1", "-Y 1 +X 1 ", "", "-Y 99999999999999999999 +X 1"}) {
+        const std::string error = errorWith("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n" + pixel);
+        EXPECT_NE(error.find("gives the size as \"" + size + "\", must be"), std::string::npos) << error;
+    }
+}
+
+// stb_image, which reads these, runs in a process of its own: what ends it is a sentence here.
+TEST_F(ImageFile, BitmapsAreDecodedElsewhere) {
+    std::vector<std::uint8_t> tga{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0x20};
+    tga.insert(tga.end(), {1, 2, 3, 4, 5, 6});
+    const ByteImage image = decodeBytes(tga, "a.tga");
+    EXPECT_EQ(image.width, 2u);
+    EXPECT_EQ(image.height, 1u);
+    EXPECT_EQ(image.rgba, (std::vector<std::uint8_t>{3, 2, 1, 255, 6, 5, 4, 255}));
+    tga[13] = tga[15] = 8; // 2050 x 2049
+    EXPECT_EQ(errorOf([&] { decodeBytes(tga, "a.tga"); }),
+              "a.tga: the BMP or TGA image is cut off: 24 bytes cannot hold 2050 x 2049 pixels");
+    tga[13] = tga[15] = 0;
+    tga[12] = 0; // no width
+    EXPECT_EQ(errorOf([&] { decodeBytes(tga, "a.tga"); }),
+              "a.tga: is not a PNG, JPEG, WebP, BMP or TGA image that can be read");
+    EXPECT_EQ(errorOf([] { nacre::runIsolated("a.bmp", {}, []() -> std::vector<std::uint8_t> { std::abort(); }); }),
+              "a.bmp: is damaged: reading it fails with \"Aborted\"");
+}
+
+// OpenEXR would make room for two gigabytes.
+TEST_F(ImageFile, ExrMayNotClaimLongAttributes) {
+    writeExr(folder / "a.exr", glow(2, 2));
+    std::vector<std::uint8_t> exr = readFile(folder / "a.exr");
+    const std::string attribute("lineOrder\0lineOrder\0\1\0\0\0", 24);
+    const auto found = std::search(exr.begin(), exr.end(), attribute.begin(), attribute.end());
+    ASSERT_NE(found, exr.end());
+    found[23] = 0x70;
+    EXPECT_EQ(errorOf([&] { decodeImage(exr, "a.exr"); }),
+              "a.exr: the OpenEXR header is damaged: its attribute \"lineOrder\" is longer than the file");
+    found[23] = 0;
+    found[20] = 2;
+    EXPECT_EQ(errorOf([&] { decodeImage(exr, "a.exr"); }),
+              "a.exr: the OpenEXR header is damaged: its attribute \"lineOrder\" has not the size of its type");
 }
 
 TEST_F(ImageFile, RefusesSizesThatDoNotFit) {

@@ -228,8 +228,8 @@ TEST_F(Import, SurvivesDamagedPly) {
 }
 
 TEST(Isolation, TurnsCrashesIntoSentences) {
-    const auto run = [](const std::function<Scene()>& read, const ImportLimits& limits = {}) {
-        return errorOf([&] { runIsolated("file", limits, read); });
+    const auto run = [](const std::function<Scene()>& read, const nacre::ProcessLimits& limits = {}) {
+        return errorOf([&] { importIsolated("file", limits, read); });
     };
     EXPECT_EQ(run([]() -> Scene { std::abort(); }), "file: is damaged: reading it fails with \"Aborted\"");
     EXPECT_EQ(run([]() -> Scene { throw SceneError("file: own words"); }), "file: own words");
@@ -256,7 +256,7 @@ TEST(Isolation, EndsWithItsParent) {
     const pid_t parent = ::fork();
     if (parent == 0) {
         ::close(pipes[0]);
-        runIsolated("file", {}, [&]() -> Scene {
+        importIsolated("file", {}, [&]() -> Scene {
             (void)!::write(pipes[1], "x", 1);
             ::sleep(1000);
             return {};
@@ -300,7 +300,7 @@ TEST(Isolation, BringsEveryMemberAcross) {
         scene.notes = {"note"};
         return scene;
     };
-    const Scene scene = runIsolated("file", {}, make);
+    const Scene scene = importIsolated("file", {}, make);
     EXPECT_EQ(scene.name, "name");
     EXPECT_EQ(scene.meshes.at(0).vertices.at(0).uv, glm::vec2(0.5f, 0.25f));
     EXPECT_EQ(scene.meshes[0].indices.size(), 3u);

@@ -31,6 +31,14 @@ Json minimalSlabs() {
     return {{"slabs", Json::array({slab})}};
 }
 
+Json minimalOpenPbr() {
+    return {{"subsurface_weight", 1}};
+}
+
+bool isOfOpenPbr(const std::string& key) {
+    return key.find('_') != std::string::npos;
+}
+
 bool accepts(const Json& material) {
     try {
         parseMaterial(material.dump(), "test");
@@ -38,6 +46,17 @@ bool accepts(const Json& material) {
     } catch (const FileError&) {
         return false;
     }
+}
+
+// A material with every member of OpenPBR at the schema's default.
+Json openPbrDefaults() {
+    Json all = minimalOpenPbr();
+    for (const auto& [key, property] : schema().at("properties").items()) {
+        if (isOfOpenPbr(key) && property.contains("default")) {
+            all[key] = property.at("default");
+        }
+    }
+    return all;
 }
 
 // Checks that the reader's range at `value`, a reference into `material`, is the schema's.
@@ -55,7 +74,10 @@ void expectRange(const Json& limits, const Json& material, const Json::json_poin
 
 TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, property] : schema().at("properties").items()) {
-        Json material = key == "layers" ? minimalLayers() : key == "slabs" ? minimalSlabs() : minimal();
+        Json material = key == "layers"    ? minimalLayers()
+                        : key == "slabs"   ? minimalSlabs()
+                        : isOfOpenPbr(key) ? minimalOpenPbr()
+                                           : minimal();
         if (!material.contains(key)) {
             const std::string type = property.value("type", "");
             const Json value = type == "boolean" ? Json(true) : type == "array" ? Json({1, 1, 1}) : Json("text");
@@ -75,7 +97,7 @@ TEST(MaterialSchema, HasTheKeysOfTheReader) {
     for (const auto& [key, value] : written.items()) {
         EXPECT_TRUE(schema().at("properties").contains(key)) << key;
     }
-    EXPECT_EQ(written.size() + 5, schema().at("properties").size()); // the absent ones and $schema
+    EXPECT_EQ(written.size() + 15, schema().at("properties").size()); // the absent ones, OpenPBR's and $schema
 }
 
 TEST(MaterialSchema, HasTheRangesOfTheReader) {
@@ -97,6 +119,20 @@ TEST(MaterialSchema, HasTheRangesOfTheReader) {
     expectRange(layer.at("weight").at("items"), two, Json::json_pointer("/layers/0/weight/0"));
     EXPECT_EQ(properties.at("layers").at("maxItems"), maxLayers);
     EXPECT_EQ(properties.at("layers").at("minItems"), 1);
+}
+
+TEST(MaterialSchema, HasTheNamesOfOpenPbr) {
+    const Json all = openPbrDefaults();
+    for (const auto& [key, property] : schema().at("properties").items()) {
+        if (!isOfOpenPbr(key) || property.at("type") == "boolean") {
+            continue;
+        }
+        const bool isColor = property.at("type") == "array";
+        expectRange(isColor ? property.at("items") : property, all,
+                    Json::json_pointer("/" + key + (isColor ? "/1" : "")));
+    }
+    // The defaults are the schema's: a file that gives them all means what one with the weight alone does.
+    EXPECT_EQ(parseMaterial(all.dump(), "test"), parseMaterial(minimalOpenPbr().dump(), "test"));
 }
 
 TEST(MaterialSchema, HasTheSlabsOfTheReader) {
@@ -132,7 +168,7 @@ TEST(MaterialSchema, HasTheSlabsOfTheReader) {
 TEST(MaterialSchema, HasTheDefaultsOfTheReader) {
     Json written = Json::parse(formatMaterial(parseMaterial(minimal().dump(), "test")));
     for (const auto& [key, property] : schema().at("properties").items()) {
-        if (property.contains("default")) {
+        if (property.contains("default") && !isOfOpenPbr(key)) {
             EXPECT_EQ(written.at(key), property.at("default")) << key;
         }
     }
@@ -140,11 +176,17 @@ TEST(MaterialSchema, HasTheDefaultsOfTheReader) {
 
 TEST(MaterialSchema, AllowsExactlyOneProfile) {
     const Json expected =
-        Json::parse(R"([{"required": ["layers"]}, {"required": ["meanFreePath"]}, {"required": ["slabs"]}])");
+        Json::parse(R"([{"required": ["layers"]}, {"required": ["meanFreePath"]}, {"required": ["slabs"]},
+                        {"required": ["subsurface_weight"]}])");
     EXPECT_EQ(schema().at("oneOf"), expected);
     Json both = minimalLayers();
     both.update(minimal());
     EXPECT_FALSE(accepts(both));
+    for (Json material : {minimal(), minimalLayers(), minimalSlabs()}) {
+        material.update(minimalOpenPbr());
+        EXPECT_FALSE(accepts(material)) << material;
+    }
+    EXPECT_FALSE(accepts({{"subsurface_radius", 1}}));
     EXPECT_FALSE(accepts(Json::object()));
 }
 
