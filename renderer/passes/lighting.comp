@@ -1,9 +1,9 @@
 // Light on every visible surface: diffuse irradiance without albedo, and specular reflection beside it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "environment.glsl"
-#include "ggx.glsl"
 #include "shader_types.h"
+#include "ggx.glsl"
+#include "environment.glsl"
 
 layout(local_size_x = groupSize, local_size_y = groupSize) in;
 layout(set = 0, binding = 0, std140) uniform View {
@@ -53,7 +53,7 @@ struct Surface {
 };
 
 struct Light {
-    vec3 diffuse;  ///< irradiance
+    vec3 diffuse; ///< irradiance
     vec3 specular; ///< radiance
 };
 
