@@ -3,4 +3,5 @@ file(READ "${INPUT}" text)
 if(text MATCHES "\\)embedded\"")
     message(FATAL_ERROR "${INPUT} has the mark that ends embedded text")
 endif()
-file(WRITE "${OUTPUT}" "#pragma once\n#include <string_view>\ninline constexpr std::string_view ${SYMBOL} = R\"embedded(${text})embedded\";\n")
+# A system header is exempt from the warning about literals longer than C++ compilers have to read.
+file(WRITE "${OUTPUT}" "#pragma once\n#pragma GCC system_header\n#include <string_view>\ninline constexpr std::string_view ${SYMBOL} = R\"embedded(${text})embedded\";\n")

@@ -5,7 +5,11 @@
 
 namespace nacre::scene {
 
+namespace {
+
 using Json = nlohmann::json;
+
+}
 
 Json shortNumber(float value) {
     std::array<char, 32> text{};

@@ -12,7 +12,7 @@
 namespace nacre::tests {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef NACRE_SANITIZED
 // The sanitizers, which take four times as long, look at memory: one footprint shows them what three do.
 constexpr std::array footprints{20.0};
 #else

@@ -139,7 +139,7 @@ TEST_F(Import, ReadsALargePlyInTime) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     EXPECT_EQ(triangleCount(scene), 317u * 317 * 2);
     RecordProperty("seconds", std::to_string(seconds.count()));
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
+#if defined(NDEBUG) && !defined(NACRE_SANITIZED)
     EXPECT_LT(seconds.count(), 3);
 #endif
 }
@@ -191,7 +191,7 @@ TEST_F(Import, NamesTheMissingTexture) {
 }
 
 TEST_F(Import, RefusesWhatIsNoModel) {
-    const auto sentence = [this](const fs::path& file) {
+    const auto sentence = [](const fs::path& file) {
         const std::string error = errorOf([&] { loadModel(file); });
         EXPECT_TRUE(error.starts_with(file.string() + ": ")) << error;
         return error.substr(std::min(error.size(), file.string().size() + 2));

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 namespace {
 
 /// Under the sanitizers everything takes ten times as long.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef NACRE_SANITIZED
 constexpr int many = 10'000;
 #else
 constexpr int many = 100'000;

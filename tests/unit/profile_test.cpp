@@ -53,8 +53,9 @@ TEST(Profile, CdfIsTheIntegralOfTheRadialDensityAndReachesOne) {
         for (int channel = 0; channel < 3; ++channel) {
             for (const double share : {0.1, 0.5, 0.9, 0.999}) {
                 const double r = profile->inverseCdf(channel, share);
-                const double integral =
-                    integrate(0, r, [&](double x) { return 2 * std::numbers::pi * x * profile->radial(channel, x); });
+                const double integral = integrate(0, r, [&, &profile = profile](double x) {
+                    return 2 * std::numbers::pi * x * profile->radial(channel, x);
+                });
                 EXPECT_NEAR(integral, share, tolerance) << name << " channel " << channel;
             }
             EXPECT_EQ(profile->cdf(channel, 0), 0) << name;
@@ -83,8 +84,9 @@ TEST(Profile, LineSpreadIsTheProjectionOfTheRadialProfile) {
             for (const double share : {0.3, 0.7, 0.95}) {
                 const double x = profile->inverseCdf(channel, share);
                 const double end = std::min(60.0, 40 * profile->rmsRadius(channel));
-                const double projection =
-                    2 * integrate(0, end, [&](double y) { return profile->radial(channel, std::hypot(x, y)); });
+                const double projection = 2 * integrate(0, end, [&, &profile = profile](double y) {
+                                              return profile->radial(channel, std::hypot(x, y));
+                                          });
                 // A radial profile is even within its rings, so its density is a few tenths of a per cent off.
                 const double relative = tolerance > 1e-6 ? 5e-3 : 1e-5;
                 EXPECT_NEAR(profile->lineSpread(channel, x), projection, relative * projection) << name;
@@ -102,7 +104,8 @@ TEST(Profile, EdgeResponseIsTheIntegralOfTheLineSpread) {
             EXPECT_NEAR(profile->lineSpreadCumulative(channel, -1e4), 0, 1e-12) << name;
             for (const double share : {0.01, 0.3, 0.7, 0.99}) {
                 const double x = profile->inverseCdf(channel, share);
-                const double integral = integrate(0, x, [&](double y) { return profile->lineSpread(channel, y); });
+                const double integral =
+                    integrate(0, x, [&, &profile = profile](double y) { return profile->lineSpread(channel, y); });
                 const double cumulative = profile->lineSpreadCumulative(channel, x);
                 EXPECT_NEAR(cumulative - 0.5, integral, std::max(5e-6, tolerance)) << name;
                 EXPECT_NEAR(profile->lineSpreadCumulative(channel, -x), 1 - cumulative, 1e-12) << name;
@@ -116,7 +119,8 @@ TEST(Profile, RmsRadiusIsTheSecondMoment) {
         for (int channel = 0; channel < 3; ++channel) {
             // ⟨r²⟩ = ∫ 2r (1 − CDF) dr
             const double end = std::min(60.0, 40 * profile->rmsRadius(channel));
-            const double moment = integrate(0, end, [&](double r) { return 2 * r * (1 - profile->cdf(channel, r)); });
+            const double moment =
+                integrate(0, end, [&, &profile = profile](double r) { return 2 * r * (1 - profile->cdf(channel, r)); });
             EXPECT_NEAR(std::sqrt(moment), profile->rmsRadius(channel), 1e-3 * profile->rmsRadius(channel)) << name;
         }
     }
