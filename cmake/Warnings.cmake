@@ -4,7 +4,7 @@ option(NACRE_WARNINGS_AS_ERRORS "Treat warnings as errors" ${PROJECT_IS_TOP_LEVE
 # The sanitizers' presets do not optimise: it would double the time to compile. What their tests spend their time in is
 # compiled with this all the same.
 if(NACRE_SANITIZE)
-    set(NACRE_OPTIMISE_SANITIZED -O1)
+    set(NACRE_OPTIMISE_SANITIZED -O2)
 endif()
 
 function(nacre_warnings target)

@@ -122,7 +122,7 @@ void Reference::Implementation::addSamples(std::uint32_t pixel, std::uint32_t ta
     if (film.coverage[pixel] == 0) {
         sum.count = std::max(sum.count, target);
     }
-    while (sum.count < target) {
+    while (sum.count < target && !settings.cancel.stop_requested()) {
         sum.add(radiance(pixel, sum.count, incidents));
     }
 }
@@ -169,7 +169,7 @@ Reference::Reference(const scene::Scene& scene, const scene::Camera& camera, con
     }
     self.arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, self.pixels.size()), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            for (std::size_t i = range.begin(); i != range.end() && !settings.cancel.stop_requested(); ++i) {
                 self.look(self.pixels[i]);
             }
         });
@@ -225,7 +225,7 @@ Stopped Reference::run(const Stop& stop, const std::function<bool(const Progress
             progress.seconds = secondsSince(start);
             progress.sppPerSecond = added / progress.seconds;
             self.film.seconds = secondsBefore + progress.seconds;
-            if (!proceed(progress)) {
+            if (!proceed(progress) || self.settings.cancel.stop_requested()) {
                 return Stopped::Interrupted;
             }
             if (stop.seconds && progress.seconds >= *stop.seconds) {

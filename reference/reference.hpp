@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 namespace nacre::reference {
@@ -42,6 +43,8 @@ struct Settings {
     /// [> 0] s, about, of a slice of work. Between slices `run` asks whether to proceed; shorter ones use the cores
     /// less well.
     double sliceSeconds = 0.33;
+    /// Ends the constructor and `run` within a sample. What was drawn until then stays in the film.
+    std::stop_token cancel;
 };
 
 /// When to stop: at what comes first.

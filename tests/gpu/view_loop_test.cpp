@@ -466,6 +466,15 @@ TEST(ViewReference, ClosingWhileItRunsTakesLessThanASecond) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
 }
 
+TEST(ViewReference, ClosingBeforeItsFirstSampleTakesLessThanASecond) {
+    auto task = std::make_unique<view::ReferenceTask>(ballScene(), ballScene().cameras[0], 2048, 2048);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100)); // it looks where the picture shows a surface
+    EXPECT_EQ(task->state().samples, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    task.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
+}
+
 TEST(ViewInspection, SaysWhyThereIsNothing) {
     scene::Scene scene = ballScene();
     const trace::Geometry geometry(scene);

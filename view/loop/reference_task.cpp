@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t mostSamples = 4096;
 constexpr std::chrono::seconds pictureInterval{1};
-constexpr double sliceSeconds = 0.05; // that a window which closes may have to wait
+constexpr double sliceSeconds = 0.05; // between two looks at how far it is
 
 Image pictureOf(const reference::Film& film) {
     Image image = makeImage(film.width, film.height, {"R", "G", "B"});
@@ -27,19 +27,17 @@ Image pictureOf(const reference::Film& film) {
 } // namespace
 
 ReferenceTask::ReferenceTask(scene::Scene scene, const scene::Camera& camera, std::uint32_t width, std::uint32_t height)
-    : scene_(std::move(scene)), thread_([this, camera, width, height] { run(camera, width, height); }) {}
+    : scene_(std::move(scene)),
+      thread_([this, camera, width, height](const std::stop_token& cancel) { run(cancel, camera, width, height); }) {}
 
-ReferenceTask::~ReferenceTask() {
-    stop_ = true;
-    thread_.join();
-}
-
-void ReferenceTask::run(const scene::Camera& camera, std::uint32_t width, std::uint32_t height) {
+void ReferenceTask::run(const std::stop_token& cancel, const scene::Camera& camera, std::uint32_t width,
+                        std::uint32_t height) {
     try {
         reference::Settings settings;
         settings.width = width;
         settings.height = height;
         settings.sliceSeconds = sliceSeconds;
+        settings.cancel = cancel;
         // The window draws beside it.
         settings.threads = std::max(1u, std::thread::hardware_concurrency() / 2);
         reference::Reference reference(scene_, camera, settings);
@@ -57,9 +55,9 @@ void ReferenceTask::run(const scene::Camera& camera, std::uint32_t width, std::u
                 shown = progress.spp;
                 last = now;
             }
-            return !stop_;
+            return true;
         });
-        if (!stop_) {
+        if (!cancel.stop_requested()) {
             const std::scoped_lock lock(mutex_);
             state_.light = pictureOf(reference.film());
             ++state_.version;

@@ -4,20 +4,16 @@
 #include "image/image.hpp"
 #include "scene/scene.hpp"
 
-#include <atomic>
 #include <mutex>
 #include <string>
 #include <thread>
 
 namespace nacre::view {
 
-/// Computes the surface integral of a scene's materials on a thread of its own, until it is stopped.
+/// Computes the surface integral of a scene's materials on a thread of its own, until the task is destroyed.
 class ReferenceTask {
 public:
     ReferenceTask(scene::Scene scene, const scene::Camera& camera, std::uint32_t width, std::uint32_t height);
-    /// Stops, after the slice of work that is being done.
-    ~ReferenceTask();
-
     struct State {
         Image light;               ///< R G B radiance; empty before the first sample of every pixel
         double samples = 0;        ///< of every pixel, on average
@@ -30,13 +26,12 @@ public:
     std::uint64_t version() const;
 
 private:
-    void run(const scene::Camera& camera, std::uint32_t width, std::uint32_t height);
+    void run(const std::stop_token& cancel, const scene::Camera& camera, std::uint32_t width, std::uint32_t height);
 
     scene::Scene scene_;
     mutable std::mutex mutex_;
     State state_;
-    std::atomic<bool> stop_ = false;
-    std::thread thread_;
+    std::jthread thread_; // asked to stop, and joined, before the rest goes
 };
 
 } // namespace nacre::view
