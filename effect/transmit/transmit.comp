@@ -172,11 +172,13 @@ float certaintyOf(Receiver receiver, float texelSize, float deviation) {
 }
 
 // The thesis's own: along the light, under the receiver's cosine.
-vec4 thesisThrough(Receiver receiver, LitPoints points, Taps taps, float cosine) {
+vec4 thesisThrough(Receiver receiver, EntryFrame frame, MapDepths map, Taps taps, vec2 coordinate, float deepest, float cosine) {
     float most = receiver.authored > 0.0 ? receiver.authored : opaque;
     mat4 thickness;
     for (int row = 0; row < 4; ++row) {
-        thickness[row] = clamp(points.z[row], 0.0, most);
+        vec4 x, y, z;
+        litRow(frame, map.depth[row], taps, row, coordinate, deepest, x, y, z);
+        thickness[row] = clamp(z, 0.0, most);
     }
     vec3 through = transmittance(receiver.material, thickness, taps.columnWeights, taps.rowWeights);
     return vec4(through * cosine, dot(thickness * taps.rowWeights, taps.columnWeights));
@@ -207,17 +209,17 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     bool isThesis = hasFlag(flagThesisTransmittance);
     for (bool shines = nearest <= farthest || isThesis; shines; shines = false) { // else the body is thick, as most are
         EntryFrame frame = entryFrame(light, point, receiver.normal, toLight, depth);
-        LitPoints points = litPoints(frame, map, taps, point.texel, farthest, inmost);
         if (isThesis) {
-            return thesisThrough(receiver, points, taps, cosine);
+            return thesisThrough(receiver, frame, map, taps, point.texel, depth + 2.0 * farthest, cosine);
         }
-        EntryPlane plane = entryPlane(points, frame.normal, spacing * texel);
+        LitPoints points;
+        EntryPlane plane = entryPlane(frame, map, taps, point.texel, spacing * texel, farthest, inmost, points);
         mat4 thickness = entryThickness(points, plane, most);
         result.rgb = transmittance(receiver.material, thickness, taps.columnWeights, taps.rowWeights);
         result.rgb *= plane.cosine * entryShare(plane.opposite);
-        result.w = points.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
+        result.w = plane.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
         deviation = plane.deviation;
-        shadowed = points.shadowed;
+        shadowed = plane.shadowed;
     }
     float certainty = certaintyOf(receiver, point.texelSize, deviation);
     float authored = receiver.authored > 0.0 ? cosine * (1.0 - certainty) * (1.0 - shadowed) : 0.0;

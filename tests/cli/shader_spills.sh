@@ -2,7 +2,7 @@
 # shader_spills.sh NACRE: what the driver's compiler says of the effect's passes. No pass may spill a vector register but
 # transmit, which holds sixteen points of the lit surface at once (docs/performance.md, "Transmit").
 set -euo pipefail
-most_of_transmit=220
+most_of_transmit=160
 
 "$1" bench shaders | awk -v most="$most_of_transmit" '
     /^[a-z]/ { pass = $0 }
