@@ -1,0 +1,77 @@
+// View-space geometry of a pixel: position in mm, pixel size in mm; and what its id and normal are, however the images hold
+// them. pixel_geometry.glsl and encoded_inputs.glsl. Needs `parameters`, which has a `view`.
+
+@id(1000) override noMaterialIds: bool = false;
+@id(1001) override normalEncoding: u32 = 0;
+
+fn isFinite(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7fffffffu) < 0x7f800000u;
+}
+
+// Not where the sum is beyond a float, either.
+fn isFiniteVector(value: vec3f) -> bool {
+    return isFinite(value.x + value.y + value.z);
+}
+
+fn isInArea(pixel: vec2i) -> bool {
+    let first = parameters.view.areaOffset;
+    return all(pixel >= first) && all(pixel < first + parameters.view.areaExtent);
+}
+
+fn hasFlag(flag: u32) -> bool {
+    return (parameters.view.flags & flag) != 0u;
+}
+
+// x and y of a pixel's ray: position = (ray·z + origin, z).
+fn rayAt(pixel: vec2i) -> vec2f {
+    return parameters.view.rayX * f32(pixel.x) + parameters.view.rayY * f32(pixel.y) + parameters.view.rayBias;
+}
+
+fn originAt(pixel: vec2i) -> vec2f {
+    return parameters.view.originX * f32(pixel.x) + parameters.view.originY * f32(pixel.y) + parameters.view.originBias;
+}
+
+// View z in mm, negative in front of a perspective camera.
+fn viewZ(pixel: vec2i) -> f32 {
+    let depth = textureLoad(depthImage, pixel, 0).r;
+    if (!hasFlag(flagHardwareDepth)) {
+        return -depth * parameters.view.mmPerUnit;
+    }
+    let place = vec3f(vec2f(pixel), 1.0);
+    let clipW = parameters.view.clipW;
+    return (dot(parameters.view.depthBias.xyz, place) - depth * clipW.y) /
+           (depth * clipW.x - dot(parameters.view.depthSlope.xyz, place));
+}
+
+fn clipW(z: f32) -> f32 {
+    return parameters.view.clipW.x * z + parameters.view.clipW.y;
+}
+
+// Whether something was drawn there, in front of the camera.
+fn isValidZ(z: f32) -> bool {
+    return clipW(z) > 0.0 && isFinite(z);
+}
+
+// Length of a pixel's ray where z changes by 1.
+fn stretchAt(pixel: vec2i) -> f32 {
+    return length(vec3f(rayAt(pixel), 1.0));
+}
+
+// How far a pixel's surface is along its ray, mm, from view z distanceOrigin on; 0 where nothing was drawn.
+fn distanceAlongRay(pixel: vec2i) -> f32 {
+    let z = viewZ(pixel);
+    let along = (parameters.view.distanceOrigin - z) * stretchAt(pixel);
+    return select(0.0, along, isValidZ(z) && isFinite(along));
+}
+
+fn materialIdAt(pixel: vec2i) -> u32 {
+    if (noMaterialIds) {
+        return select(0u, 1u, !hasFlag(flagStrength) || textureLoad(strengthImage, pixel, 0).r > 0.0);
+    }
+    return textureLoad(materialIdImage, pixel, 0).r;
+}
+
+// The slot of a pixel's material, 0 where there is no subsurface scattering.
+fn materialOfId(id: u32) -> u32 {
+    return materials.slots[id & (materialIdCount - 1u)];
+}
