@@ -1,0 +1,108 @@
+// Shows a stored frame before and after the effect, and how far the result is from the library's. With ?check it does so for
+// all frames and sends the figures to the server.
+import {Call, compare, countBindings, halvesToFloats, loadFrame} from './passes.js';
+
+const element = (id) => document.getElementById(id);
+
+async function openDevice() {
+    const adapter = await navigator.gpu?.requestAdapter();
+    if (!adapter) {
+        throw new Error('This browser has no WebGPU.');
+    }
+    const device = await adapter.requestDevice(); // with the default limits
+    device.addEventListener('uncapturederror', ({error}) => fail(error));
+    return device;
+}
+
+async function loadCodes(frame) {
+    const codes = new Map();
+    for (const {file} of frame.calls.flatMap((call) => call.passes)) {
+        if (!codes.has(file)) {
+            codes.set(file, await (await fetch(`wgsl/${file}.wgsl`)).text());
+        }
+    }
+    return codes;
+}
+
+// Runs a frame's calls. Returns what each wrote, by the output's name, and the figures of each.
+async function runFrame(device, name) {
+    const frame = await loadFrame(`frames/${name}`);
+    const codes = await loadCodes(frame);
+    const ids = new Uint16Array(frame.files.get(frame.images.materialId.file));
+    const images = {irradiance: halvesToFloats(new Uint16Array(frame.files.get(frame.images.irradiance.file)))};
+    const figures = [];
+    for (const call of frame.calls) {
+        const effect = new Call(device, frame, call, codes);
+        effect.run();
+        images[call.output] = await effect.read();
+        const expected = halvesToFloats(new Uint16Array(frame.files.get(call.expected.file)));
+        figures.push({
+            frame: name,
+            call: call.name,
+            ...compare(images[call.output], expected, (pixel) => ids[pixel] !== 0),
+            largestElsewhere: compare(images[call.output], expected, (pixel) => ids[pixel] === 0).largest,
+        });
+    }
+    const limits = [...codes].map(([file, code]) => ({file, ...countBindings(code)}));
+    return {extent: frame.extent, images, figures, limits};
+}
+
+// Linear light as sRGB.
+function encoded(light) {
+    const value = Math.min(Math.max(light / (1 + 0.3 * light), 0), 1);
+    return 255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
+}
+
+function show(canvas, [width, height], images) {
+    canvas.width = width;
+    canvas.height = height;
+    const picture = new ImageData(width, height);
+    for (let i = 0; i < picture.data.length; ++i) {
+        const light = images.reduce((sum, image) => sum + image[i], 0);
+        picture.data[i] = i % 4 === 3 ? 255 : encoded(light);
+    }
+    canvas.getContext('2d').putImageData(picture, 0, 0);
+}
+
+function showFigures(figures) {
+    const cells = (row) => `<td>${row.call}</td><td>${row.psnr.toFixed(1)} dB</td><td>${row.largest.toExponential(1)}</td>`;
+    element('figures').innerHTML = '<tr><th>call</th><th>PSNR against the library</th><th>largest error</th></tr>' +
+                                   figures.map((row) => `<tr>${cells(row)}</tr>`).join('');
+}
+
+async function showFrame(device, name) {
+    element('status').textContent = `Running ${name}`;
+    const {extent, images, figures} = await runFrame(device, name);
+    show(element('before'), extent, [images.irradiance]);
+    show(element('after'), extent, [images.scattered, images.transmitted].filter(Boolean));
+    showFigures(figures);
+    element('status').textContent = 'Done';
+}
+
+async function send(results) {
+    await fetch('results', {method: 'POST', body: JSON.stringify(results)});
+}
+
+function fail(error) {
+    element('status').textContent = error.message;
+    send({error: error.message});
+}
+
+async function main() {
+    const device = await openDevice();
+    const names = await (await fetch('frames')).json();
+    if (new URLSearchParams(location.search).has('check')) {
+        const results = [];
+        for (const name of names) {
+            const {figures, limits} = await runFrame(device, name);
+            results.push({figures, limits});
+        }
+        await send(results);
+        return;
+    }
+    element('frame').append(...names.map((name) => new Option(name)));
+    element('frame').addEventListener('change', ({target}) => showFrame(device, target.value).catch(fail));
+    await showFrame(device, names[0]);
+}
+
+main().catch(fail);

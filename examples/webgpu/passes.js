@@ -1,0 +1,205 @@
+// The effect's passes in WebGPU: a stored frame (docs/webgpu.md) and the modules of its passes. What an engine does with
+// nacre_passes.h, from the same lists, written down in frame.json.
+
+// The bindings that a module declares, as entries of a GPUBindGroupLayout. They are numbered by constants of the module.
+function layoutEntries(code) {
+    const constants = new Map([...code.matchAll(/const (\w+): u32 = (\d+)u?;/g)].map((match) => [match[1], Number(match[2])]));
+    const numberOf = (expression) => expression.split('+').reduce((sum, term) => sum + constants.get(term.trim()), 0);
+    const declarations = code.matchAll(/@group\(0\) @binding\(([^)]+)\)\s+var(<[^>]*>)?\s+\w+\s*:\s*([^;]+);/g);
+    return [...declarations].map(([, number, space, type]) => ({
+        binding: numberOf(number),
+        visibility: GPUShaderStage.COMPUTE,
+        ...resourceOf(space, type),
+    }));
+}
+
+function resourceOf(space, type) {
+    if (space !== undefined) {
+        const kinds = {'<uniform>': 'uniform', '<storage, read>': 'read-only-storage', '<storage, read_write>': 'storage'};
+        return {buffer: {type: kinds[space]}};
+    }
+    const stored = type.match(/texture_storage_2d<(\w+), write>/);
+    if (stored) {
+        return {storageTexture: {access: 'write-only', format: stored[1]}};
+    }
+    const sampleType = type.includes('u32') ? 'uint' : 'unfilterable-float';
+    return {texture: {sampleType, viewDimension: type.includes('array') ? '2d-array' : '2d'}};
+}
+
+// What a pass takes of WebGPU's limits.
+export function countBindings(code) {
+    const entries = layoutEntries(code);
+    const count = (is) => entries.filter(is).length;
+    return {
+        storageBuffers: count((entry) => entry.buffer && entry.buffer.type !== 'uniform'),
+        sampledTextures: count((entry) => entry.texture),
+        storageTextures: count((entry) => entry.storageTexture),
+    };
+}
+
+async function fetchBytes(url) {
+    const response = await fetch(url);
+    if (!response.ok) {
+        throw new Error(`${url}: ${response.status}`);
+    }
+    return response.arrayBuffer();
+}
+
+// A frame of `folder`, with its files.
+export async function loadFrame(folder) {
+    const frame = JSON.parse(new TextDecoder().decode(await fetchBytes(`${folder}/frame.json`)));
+    const files = new Set(Object.values(frame.images).map((image) => image.file));
+    for (const call of frame.calls) {
+        files.add(call.expected.file);
+        call.bindings.filter((binding) => binding.file).forEach((binding) => files.add(binding.file));
+    }
+    frame.files = new Map();
+    for (const file of files) {
+        frame.files.set(file, await fetchBytes(`${folder}/${file}`));
+    }
+    return frame;
+}
+
+function createTexture(device, format, [width, height, layers], usage) {
+    return device.createTexture({format, size: [width, height, layers], usage});
+}
+
+function uploadImage(device, frame, image) {
+    const texture = createTexture(device, image.format, image.extent, GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST);
+    const [width, height, layers] = image.extent;
+    const bytes = frame.files.get(image.file);
+    device.queue.writeTexture({texture}, bytes, {bytesPerRow: bytes.byteLength / (height * layers), rowsPerImage: height},
+                              [width, height, layers]);
+    return texture;
+}
+
+// One call of the effect on a frame: its buffers, textures and pipelines. `codes`: the modules by the passes' names.
+export class Call {
+    constructor(device, frame, call, codes) {
+        this.device = device;
+        this.extent = frame.extent;
+        this.call = call;
+        this.buffers = new Map();
+        this.views = new Map();
+        for (const binding of call.bindings) {
+            this.createResource(frame, binding);
+        }
+        this.passes = call.passes.map((pass) => this.createPass(pass, codes.get(pass.file)));
+    }
+
+    createResource(frame, {name, binding, kind, bytes, file}) {
+        if (kind === 'uniform' || kind === 'storage') {
+            const usage = kind === 'uniform' ? GPUBufferUsage.UNIFORM : GPUBufferUsage.STORAGE | GPUBufferUsage.INDIRECT;
+            const buffer = this.device.createBuffer({label: name, size: bytes, usage: usage | GPUBufferUsage.COPY_DST});
+            if (file) {
+                this.device.queue.writeBuffer(buffer, 0, frame.files.get(file));
+            }
+            this.buffers.set(binding, buffer);
+        } else if (kind === 'output') {
+            const format = name === 'thicknessOut' ? 'r32float' : 'rgba16float';
+            const texture = createTexture(this.device, format, [...frame.extent, 1],
+                                          GPUTextureUsage.STORAGE_BINDING | GPUTextureUsage.COPY_SRC);
+            this.views.set(binding, texture.createView());
+            if (name === this.call.output) {
+                this.output = texture;
+            }
+        } else { // any image stands in for one that is not given
+            const image = frame.images[name] ?? frame.images.depth;
+            const dimension = name === 'shadowMaps' ? '2d-array' : '2d';
+            this.views.set(binding, uploadImage(this.device, frame, image).createView({dimension}));
+        }
+    }
+
+    createPass(pass, code) {
+        const entries = layoutEntries(code);
+        const layout = this.device.createBindGroupLayout({label: pass.file, entries});
+        const constants = {};
+        if (code.includes('override separateMaterials')) {
+            constants[0] = this.call.separateMaterials ? 1 : 0;
+        }
+        if (code.includes('override generalLights')) {
+            constants[1] = this.call.generalLights ? 1 : 0;
+        }
+        const pipeline = this.device.createComputePipeline({
+            label: pass.file,
+            layout: this.device.createPipelineLayout({bindGroupLayouts: [layout]}),
+            compute: {module: this.device.createShaderModule({label: pass.file, code}), entryPoint: 'main', constants},
+        });
+        const group = this.device.createBindGroup({
+            layout,
+            entries: entries.map(({binding, buffer}) => ({
+                binding,
+                resource: buffer ? {buffer: this.buffers.get(binding)} : this.views.get(binding),
+            })),
+        });
+        return {pipeline, group, ...pass};
+    }
+
+    // Runs the passes one after the other; WebGPU puts the barriers between them.
+    run() {
+        const encoder = this.device.createCommandEncoder();
+        const recorded = encoder.beginComputePass();
+        for (const pass of this.passes) {
+            recorded.setPipeline(pass.pipeline);
+            recorded.setBindGroup(0, pass.group);
+            if (pass.groups) {
+                recorded.dispatchWorkgroups(...pass.groups);
+            } else {
+                recorded.dispatchWorkgroupsIndirect(this.buffers.get(pass.indirect.binding), pass.indirect.offset);
+            }
+        }
+        recorded.end();
+        this.device.queue.submit([encoder.finish()]);
+    }
+
+    // The output's pixels, four floats each.
+    async read() {
+        const [width, height] = this.extent;
+        const bytesPerRow = Math.ceil((8 * width) / 256) * 256;
+        const buffer = this.device.createBuffer({size: bytesPerRow * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST});
+        const encoder = this.device.createCommandEncoder();
+        encoder.copyTextureToBuffer({texture: this.output}, {buffer, bytesPerRow}, [width, height]);
+        this.device.queue.submit([encoder.finish()]);
+        await buffer.mapAsync(GPUMapMode.READ);
+        const rows = new Uint16Array(buffer.getMappedRange());
+        const pixels = new Uint16Array(4 * width * height);
+        for (let y = 0; y < height; ++y) {
+            pixels.set(rows.subarray((bytesPerRow / 2) * y, (bytesPerRow / 2) * y + 4 * width), 4 * width * y);
+        }
+        buffer.unmap();
+        return halvesToFloats(pixels);
+    }
+}
+
+function halfToFloat(half) {
+    const sign = half & 0x8000 ? -1 : 1;
+    const exponent = (half >> 10) & 31;
+    const mantissa = half & 1023;
+    if (exponent === 31) {
+        return mantissa ? NaN : sign * Infinity;
+    }
+    return sign * (exponent ? 2 ** (exponent - 15) * (1 + mantissa / 1024) : 2 ** -14 * (mantissa / 1024));
+}
+
+export function halvesToFloats(halves) {
+    return Float32Array.from(halves, halfToFloat);
+}
+
+// How far an image is from one that the library's own passes wrote: dB, peak 1, and the largest error, each over the pixels of
+// which `counts` is true. Above 1 errors are relative.
+export function compare(image, expected, counts) {
+    let squares = 0;
+    let values = 0;
+    let largest = 0;
+    for (let i = 0; i < image.length; ++i) {
+        if (i % 4 === 3 || !counts(i >> 2)) {
+            continue;
+        }
+        const same = Object.is(image[i], expected[i]);
+        const error = same ? 0 : Math.abs(image[i] - expected[i]) / Math.max(1, Math.abs(expected[i]));
+        largest = Math.max(largest, Number.isFinite(error) ? error : Infinity);
+        squares += error * error;
+        values += 1;
+    }
+    return {psnr: -10 * Math.log10(Math.max(squares / Math.max(values, 1), 1e-20)), largest, pixels: values / 3};
+}
