@@ -1,8 +1,5 @@
-// View-space geometry of a pixel: position in mm, pixel size in mm; and what its id and normal are, however the images hold
-// them. pixel_geometry.glsl and encoded_inputs.glsl. Needs `parameters`, which has a `view`.
-
-@id(1000) override noMaterialIds: bool = false;
-@id(1001) override normalEncoding: u32 = 0;
+// View-space geometry of a pixel: position in mm, pixel size in mm. pixel_geometry.glsl. Needs `parameters`, which has a
+// `view`.
 
 fn isFinite(value: f32) -> bool {
     return (bitcast<u32>(value) & 0x7fffffffu) < 0x7f800000u;
@@ -64,14 +61,15 @@ fn distanceAlongRay(pixel: vec2i) -> f32 {
     return select(0.0, along, isValidZ(z) && isFinite(along));
 }
 
-fn materialIdAt(pixel: vec2i) -> u32 {
-    if (noMaterialIds) {
-        return select(0u, 1u, !hasFlag(flagStrength) || textureLoad(strengthImage, pixel, 0).r > 0.0);
-    }
-    return textureLoad(materialIdImage, pixel, 0).r;
+fn viewPosition(pixel: vec2i, z: f32) -> vec3f {
+    return vec3f(rayAt(pixel) * z + originAt(pixel), z);
 }
 
-// The slot of a pixel's material, 0 where there is no subsurface scattering.
-fn materialOfId(id: u32) -> u32 {
-    return materials.slots[id & (materialIdCount - 1u)];
+// How far a view-space position moves, in mm, from one pixel to the next at constant z.
+fn stepX(z: f32) -> vec2f {
+    return parameters.view.rayX * z + parameters.view.originX;
+}
+
+fn stepY(z: f32) -> vec2f {
+    return parameters.view.rayY * z + parameters.view.originY;
 }

@@ -7,6 +7,7 @@
 @group(0) @binding(bindingScattered) var scatteredImage: texture_storage_2d<rgba16float, write>;
 
 #include "pixel_geometry.wgsl"
+#include "encoded_inputs.wgsl"
 
 // The largest light of an intermediate of half floats.
 const maxHalf: f32 = 65504.0;
