@@ -54,7 +54,7 @@ std::vector<float> downloadLayers(renderer::Gpu& gpu, renderer::Image& image) {
     const renderer::Buffer staging(gpu, "shadow maps, read back", sizeof(float) * count,
                                    vk::BufferUsageFlagBits::eTransferDst, renderer::Buffer::Place::ReadBack);
     gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
-        prepare(commandBuffer, {{image, renderer::usage::transferRead}});
+        renderer::prepare(commandBuffer, {{image, renderer::usage::transferRead}});
         const vk::BufferImageCopy copy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, info.layers},
                                        .imageExtent = {info.extent.width, info.extent.height, 1}};
         commandBuffer.copyImageToBuffer(image.handle(), vk::ImageLayout::eTransferSrcOptimal, staging.handle(), copy);

@@ -1,7 +1,5 @@
 #include "tests/webgpu/stored_frame.hpp"
 
-#include "nacre/nacre_passes.h"
-
 #include <fstream>
 #include <iostream>
 #include <stdexcept>

@@ -2,6 +2,7 @@
 // the passes read beside them (nacre_passes.h), and what the library's own passes wrote.
 #pragma once
 
+#include "nacre/nacre_passes.h"
 #include "tests/gpu/support/effect.hpp"
 
 #include <nlohmann/json.hpp>
