@@ -19,7 +19,8 @@ PAGE = pathlib.Path(__file__).resolve().parent.parent / "examples" / "webgpu"
 
 
 class Handler(http.server.SimpleHTTPRequestHandler):
-    """The page's files, /wgsl/ and /frames/; /frames lists these; POST /results hands over what the page found."""
+    """The page's files, /wgsl/ and /frames/; /frames lists these; POST /results hands over what the page found, and
+    /shown is answered then."""
 
     def __init__(self, *arguments, site, **keywords):
         self.site = site
@@ -37,6 +38,9 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         if self.path == "/frames":
             names = sorted(file.parent.name for file in self.site.folders["/frames/"].glob("*/frame.json"))
             self.answer(json.dumps(sorted(names, key=lambda name: name != "gallery")).encode())
+        elif self.path == "/shown":
+            self.site.arrived.wait(timeout=240)
+            self.answer(b"")
         else:
             super().do_GET()
 
@@ -104,8 +108,8 @@ def check(site):
 def picture(site, file):
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         subprocess.run(chromium(profile, f"--screenshot={file.resolve()}", "--window-size=1060,560", "--hide-scrollbars",
-                                "--virtual-time-budget=60000", site.address), check=True, timeout=240,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                site.address + "?picture"), check=True, timeout=240, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)
 
 
 def main():

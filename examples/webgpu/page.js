@@ -1,5 +1,5 @@
 // Shows a stored frame before and after the effect, and how far the result is from the library's. With ?check it does so for
-// all frames and sends the figures to the server.
+// all frames and sends the figures to the server (scripts/webgpu.py).
 import {Call, compare, countBindings, halvesToFloats, loadFrame} from './passes.js';
 
 const element = (id) => document.getElementById(id);
@@ -103,6 +103,15 @@ async function main() {
     element('frame').append(...names.map((name) => new Option(name)));
     element('frame').addEventListener('change', ({target}) => showFrame(device, target.value).catch(fail));
     await showFrame(device, names[0]);
+    if (isPictured) {
+        await send({});
+    }
+}
+
+// A browser that saves a picture does so once all has loaded: also an image that comes when the frame is shown.
+const isPictured = new URLSearchParams(location.search).has('picture');
+if (isPictured) {
+    document.body.append(Object.assign(new Image(), {src: 'shown', hidden: true}));
 }
 
 main().catch(fail);
