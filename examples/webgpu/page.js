@@ -1,6 +1,6 @@
 // Shows a stored frame before and after the effect, and how far the result is from the library's. With ?check it does so for
 // all frames and sends the figures to the server (scripts/webgpu.py).
-import {Call, compare, countBindings, halvesToFloats, loadFrame} from './passes.js';
+import {Call, compare, countBindings, loadFrame, valuesOf} from './passes.js';
 
 const element = (id) => document.getElementById(id);
 
@@ -26,55 +26,62 @@ async function loadCodes(frame) {
 
 // Runs a frame's calls. Returns what each wrote, by the output's name, and the figures of each.
 async function runFrame(device, name) {
-    const frame = await loadFrame(`frames/${name}`);
+    const frame = await loadFrame(`frames/${encodeURIComponent(name)}`);
     const codes = await loadCodes(frame);
+    const valuesIn = ({format, file}) => valuesOf(format, frame.files.get(file));
     const ids = new Uint16Array(frame.files.get(frame.images.materialId.file));
-    const images = {irradiance: halvesToFloats(new Uint16Array(frame.files.get(frame.images.irradiance.file)))};
+    const images = {irradiance: valuesIn(frame.images.irradiance)};
+    if (frame.images.albedo) {
+        images.albedo = valuesIn(frame.images.albedo);
+    }
     const figures = [];
     for (const call of frame.calls) {
         const effect = new Call(device, frame, call, codes);
         effect.run();
-        images[call.output] = await effect.read();
-        const expected = halvesToFloats(new Uint16Array(frame.files.get(call.expected.file)));
-        figures.push({
-            frame: name,
-            call: call.name,
-            ...compare(images[call.output], expected, (pixel) => ids[pixel] !== 0),
-            largestElsewhere: compare(images[call.output], expected, (pixel) => ids[pixel] === 0).largest,
-        });
+        for (const [output, expected] of Object.entries(call.expected)) {
+            images[output] = await effect.read(output);
+            const channels = expected.format === 'r32float' ? 1 : 4;
+            const against = (counts) => compare(images[output], valuesIn(expected), channels, counts);
+            figures.push({
+                frame: name,
+                output,
+                ...against((pixel) => ids[pixel] !== 0),
+                largestElsewhere: against((pixel) => ids[pixel] === 0).largest,
+            });
+        }
     }
     const limits = [...codes].map(([file, code]) => ({file, ...countBindings(code)}));
-    return {extent: frame.extent, images, figures, limits};
+    return {frame, images, figures, limits};
 }
 
 // Linear light as sRGB.
 function encoded(light) {
-    const value = Math.min(Math.max(light / (1 + 0.3 * light), 0), 1);
+    const value = Math.min(Math.max(light, 0), 1);
     return 255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055);
 }
 
-function show(canvas, [width, height], images) {
-    canvas.width = width;
-    canvas.height = height;
-    const picture = new ImageData(width, height);
+// The picture that irradiances, which add up, make: times albedo / pi.
+function show(canvas, frame, albedo, irradiances) {
+    [canvas.width, canvas.height] = frame.extent;
+    const picture = new ImageData(...frame.extent);
     for (let i = 0; i < picture.data.length; ++i) {
-        const light = images.reduce((sum, image) => sum + image[i], 0);
-        picture.data[i] = i % 4 === 3 ? 255 : encoded(light);
+        const light = irradiances.reduce((sum, image) => sum + image[i], 0) * (albedo ? albedo[i] : 1) / Math.PI;
+        picture.data[i] = i % 4 === 3 ? 255 : encoded(frame.exposure * light);
     }
     canvas.getContext('2d').putImageData(picture, 0, 0);
 }
 
 function showFigures(figures) {
-    const cells = (row) => `<td>${row.call}</td><td>${row.psnr.toFixed(1)} dB</td><td>${row.largest.toExponential(1)}</td>`;
-    element('figures').innerHTML = '<tr><th>call</th><th>PSNR against the library</th><th>largest error</th></tr>' +
+    const cells = (row) => `<td>${row.output}</td><td>${row.psnr.toFixed(1)} dB</td><td>${row.largest.toExponential(1)}</td>`;
+    element('figures').innerHTML = '<tr><th>output</th><th>PSNR against the library</th><th>largest error</th></tr>' +
                                    figures.map((row) => `<tr>${cells(row)}</tr>`).join('');
 }
 
 async function showFrame(device, name) {
     element('status').textContent = `Running ${name}`;
-    const {extent, images, figures} = await runFrame(device, name);
-    show(element('before'), extent, [images.irradiance]);
-    show(element('after'), extent, [images.scattered, images.transmitted].filter(Boolean));
+    const {frame, images, figures} = await runFrame(device, name);
+    show(element('before'), frame, images.albedo, [images.irradiance]);
+    show(element('after'), frame, images.albedo, [images.scattered, images.transmitted].filter(Boolean));
     showFigures(figures);
     element('status').textContent = 'Done';
 }

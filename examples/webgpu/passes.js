@@ -50,7 +50,7 @@ export async function loadFrame(folder) {
     const frame = JSON.parse(new TextDecoder().decode(await fetchBytes(`${folder}/frame.json`)));
     const files = new Set(Object.values(frame.images).map((image) => image.file));
     for (const call of frame.calls) {
-        files.add(call.expected.file);
+        Object.values(call.expected).forEach((image) => files.add(image.file));
         call.bindings.filter((binding) => binding.file).forEach((binding) => files.add(binding.file));
     }
     frame.files = new Map();
@@ -81,6 +81,7 @@ export class Call {
         this.call = call;
         this.buffers = new Map();
         this.views = new Map();
+        this.outputs = new Map();
         for (const binding of call.bindings) {
             this.createResource(frame, binding);
         }
@@ -96,13 +97,10 @@ export class Call {
             }
             this.buffers.set(binding, buffer);
         } else if (kind === 'output') {
-            const format = name === 'thicknessOut' ? 'r32float' : 'rgba16float';
-            const texture = createTexture(this.device, format, [...frame.extent, 1],
+            const texture = createTexture(this.device, this.call.expected[name].format, [...frame.extent, 1],
                                           GPUTextureUsage.STORAGE_BINDING | GPUTextureUsage.COPY_SRC);
             this.views.set(binding, texture.createView());
-            if (name === this.call.output) {
-                this.output = texture;
-            }
+            this.outputs.set(name, texture);
         } else { // any image stands in for one that is not given
             const image = frame.images[name] ?? frame.images.depth;
             const dimension = name === 'shadowMaps' ? '2d-array' : '2d';
@@ -152,22 +150,24 @@ export class Call {
         this.device.queue.submit([encoder.finish()]);
     }
 
-    // The output's pixels, four floats each.
-    async read() {
+    // An output's values.
+    async read(name) {
         const [width, height] = this.extent;
-        const bytesPerRow = Math.ceil((8 * width) / 256) * 256;
+        const {format} = this.call.expected[name];
+        const rowBytes = width * (format === 'r32float' ? 4 : 8);
+        const bytesPerRow = Math.ceil(rowBytes / 256) * 256;
         const buffer = this.device.createBuffer({size: bytesPerRow * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST});
         const encoder = this.device.createCommandEncoder();
-        encoder.copyTextureToBuffer({texture: this.output}, {buffer, bytesPerRow}, [width, height]);
+        encoder.copyTextureToBuffer({texture: this.outputs.get(name)}, {buffer, bytesPerRow}, [width, height]);
         this.device.queue.submit([encoder.finish()]);
         await buffer.mapAsync(GPUMapMode.READ);
-        const rows = new Uint16Array(buffer.getMappedRange());
-        const pixels = new Uint16Array(4 * width * height);
+        const rows = new Uint8Array(buffer.getMappedRange());
+        const bytes = new Uint8Array(rowBytes * height);
         for (let y = 0; y < height; ++y) {
-            pixels.set(rows.subarray((bytesPerRow / 2) * y, (bytesPerRow / 2) * y + 4 * width), 4 * width * y);
+            bytes.set(rows.subarray(bytesPerRow * y, bytesPerRow * y + rowBytes), rowBytes * y);
         }
         buffer.unmap();
-        return halvesToFloats(pixels);
+        return valuesOf(format, bytes.buffer);
     }
 }
 
@@ -181,18 +181,19 @@ function halfToFloat(half) {
     return sign * (exponent ? 2 ** (exponent - 15) * (1 + mantissa / 1024) : 2 ** -14 * (mantissa / 1024));
 }
 
-export function halvesToFloats(halves) {
-    return Float32Array.from(halves, halfToFloat);
+// The values of an image's bytes: four a pixel, or one.
+export function valuesOf(format, bytes) {
+    return format === 'r32float' ? new Float32Array(bytes) : Float32Array.from(new Uint16Array(bytes), halfToFloat);
 }
 
 // How far an image is from one that the library's own passes wrote: dB, peak 1, and the largest error, each over the pixels of
-// which `counts` is true. Above 1 errors are relative.
-export function compare(image, expected, counts) {
+// which `counts` is true. Above 1 errors are relative. `channels`: of a pixel; a fourth is left out.
+export function compare(image, expected, channels, counts) {
     let squares = 0;
     let values = 0;
     let largest = 0;
     for (let i = 0; i < image.length; ++i) {
-        if (i % 4 === 3 || !counts(i >> 2)) {
+        if (i % channels === 3 || !counts(Math.floor(i / channels))) {
             continue;
         }
         const same = Object.is(image[i], expected[i]);
@@ -201,5 +202,5 @@ export function compare(image, expected, counts) {
         squares += error * error;
         values += 1;
     }
-    return {psnr: -10 * Math.log10(Math.max(squares / Math.max(values, 1), 1e-20)), largest, pixels: values / 3};
+    return {psnr: -10 * Math.log10(Math.max(squares / Math.max(values, 1), 1e-20)), largest, values};
 }

@@ -1,5 +1,5 @@
-// store_frames FOLDER: the gallery and some synthetic scenes as stored frames, a folder each, for the passes in WGSL
-// (docs/webgpu.md).
+// store_frames FOLDER [FRAME...]: the gallery and some synthetic scenes, or these of them, as stored frames, a folder
+// each, for the passes in WGSL (docs/webgpu.md).
 #include "nacre/nacre_material.hpp"
 #include "renderer/camera.hpp"
 #include "renderer/frame.hpp"
@@ -29,7 +29,17 @@ struct Case {
     std::vector<NacreLight> lights;
     std::vector<float> shadowMaps; ///< layer after layer, `mapSize`² texels each
     std::uint32_t mapSize = 0;
+    std::vector<float> thickness;                            ///< mm; empty = none
+    std::vector<std::array<NacreShadowCascade, 2>> cascades; ///< of the lights that have some
+    std::vector<Float4> surfaceColor;                        ///< albedo that the effect does not get, for pictures
+    double exposure = 3.14159265;                            ///< of pictures
 };
+
+Case namedCase(std::string name) {
+    Case result;
+    result.name = std::move(name);
+    return result;
+}
 
 void setMaterials(Case& frame, std::span<const Material> materials) {
     frame.layers.resize(materials.size());
@@ -79,18 +89,19 @@ Case galleryCase() {
     renderer::Device device{renderer::DeviceSettings{}};
     renderer::Gpu& gpu = device.implementation();
     renderer::Frame frame(device, scene, settings);
-    gpu.submitAndWait([&](const vk::raii::CommandBuffer& commandBuffer) {
-        frame.record(commandBuffer, 0, {scene.cameras.front()});
-    });
+    gpu.submitAndWait(
+        [&](const vk::raii::CommandBuffer& commandBuffer) { frame.record(commandBuffer, 0, {scene.cameras.front()}); });
     const auto read = [&](renderer::Output output) {
         return readOutput(gpu, output, frame.images(), frame.effectUse(0));
     };
-    Case result{.name = "gallery", .input = {}, .materials = {}, .layers = {}, .lights = {}, .shadowMaps = {}};
+    Case result = namedCase("gallery");
     setMaterials(result, scene.materials);
     result.input.extent = galleryExtent;
     result.input.irradiance = fourChannels(read(renderer::Output::Irradiance));
     result.input.normal = fourChannels(read(renderer::Output::Normal));
     result.input.depth = read(renderer::Output::Depth).values;
+    result.surfaceColor = fourChannels(read(renderer::Output::Albedo));
+    result.exposure = scene.exposure;
     for (const float id : read(renderer::Output::Material).values) {
         result.input.materialId.push_back(static_cast<std::uint16_t>(id));
     }
@@ -108,9 +119,9 @@ Case galleryCase() {
 }
 
 Case syntheticCase(SceneKind kind, double footprint) {
-    const ScatterScene scene =
-        makeScatterScene({.kind = kind, .footprint = footprint, .width = 240, .height = 135, .seed = 7, .materials = {}});
-    Case result{.name = scene.name, .input = {}, .materials = {}, .layers = {}, .lights = {}, .shadowMaps = {}};
+    const ScatterScene scene = makeScatterScene(
+        {.kind = kind, .footprint = footprint, .width = 240, .height = 135, .seed = 7, .materials = {}});
+    Case result = namedCase(sceneKindName(kind));
     result.input = toInput(scene);
     setMaterials(result, scene.materials);
     return result;
@@ -141,19 +152,165 @@ Case everythingCase() {
     return result;
 }
 
+constexpr double slabDepth = 500;     // mm, of its near side from the camera
+constexpr double lightDistance = 500; // mm, of the lights behind it
+constexpr double slabThickness = 3;   // mm
+constexpr std::uint32_t slabMapSize = 48;
+
+/// A layer of a map behind the slab: `value` of how far its far side is from the light at a place in [-1, 1]².
+void addLayer(Case& frame, const std::function<double(double x, double y)>& value) {
+    for (std::uint32_t i = 0; i < slabMapSize * slabMapSize; ++i) {
+        const double x = 2 * (i % slabMapSize + 0.5) / slabMapSize - 1;
+        const double y = 2 * (i / slabMapSize + 0.5) / slabMapSize - 1;
+        frame.shadowMaps.push_back(static_cast<float>(value(x, y)));
+    }
+}
+
+/// Along +z from (0, 0, -1000): clip z = s / 1000 or, where it is perspective, 100 / s.
+void setMatrix(float (&m)[16], double reach, bool isPerspective) {
+    m[0] = m[5] = static_cast<float>(1 / reach);
+    m[10] = isPerspective ? 0.0f : 1e-3f;
+    m[11] = isPerspective ? 1.0f : 0.0f;
+    m[14] = isPerspective ? 100.0f : 1.0f;
+    m[15] = isPerspective ? 1000.0f : 1.0f;
+}
+
+NacreLight slabLight(NacreLightKind kind, std::uint32_t layer, NacreDepthEncoding encoding) {
+    NacreLight light{};
+    light.kind = kind;
+    light.position[2] = static_cast<float>(-slabDepth - lightDistance);
+    light.direction[2] = 1;
+    const float irradiance = kind == NACRE_LIGHT_DIRECTIONAL ? 1.0f : 0.2f;
+    std::fill(std::begin(light.irradiance), std::end(light.irradiance), irradiance);
+    light.shadowLayer = layer;
+    light.shadowRange = encoding == NACRE_DEPTH_LINEAR ? 1000.0f : 0.0f;
+    light.shadowDepthEncoding = encoding;
+    return light;
+}
+
+/// How far the slab's far side is from the plane of the lights, mm, where x counts half slabs: it leans, and has a
+/// step.
+double farSide(double x) {
+    return lightDistance - slabThickness - 1.5 * x - (x > 0.5 ? 1.0 : 0.0);
+}
+
+/// A slab with a light of every kind behind it, and hardware depth throughout.
+Case lightsCase() {
+    Case result = namedCase("lights");
+    constexpr VkExtent2D extent{120, 80};
+    constexpr double reach = 60; // mm, half side of the maps at the slab
+    result.input = ScatterInput::plane(extent.width, extent.height,
+                                       Projection::perspective(extent.width, extent.height, extent.width * 5), 0);
+    result.input.view.depthEncoding = NACRE_DEPTH_HARDWARE;
+    for (std::uint32_t i = 0; i < extent.width * extent.height; ++i) {
+        const double x = (i % extent.width + 0.5) / extent.width - 0.5;
+        result.input.depth[i] = static_cast<float>(1 / (slabDepth + 4 * x)); // near 1
+        result.input.normal.push_back({0.08f, 0, 0.9968f, 0});
+        result.input.materialId[i] = i / extent.width < 50 ? 1 : i % 7 == 0 ? 0 : 2;
+        result.input.irradiance[i] = i % extent.width / 10 % 2 == 0 ? Float4{1, 0.8f, 0.6f, 1} : Float4{0, 0, 0, 1};
+        result.thickness.push_back(i % 31 < 6 ? 2.5f : 0.0f);
+    }
+    const std::vector<Material> materials{skin(), marble()};
+    setMaterials(result, materials);
+    result.materials[1].thickness = 4;
+    result.mapSize = slabMapSize;
+    result.lights = {slabLight(NACRE_LIGHT_DIRECTIONAL, 0, NACRE_DEPTH_LINEAR),
+                     slabLight(NACRE_LIGHT_SPOT, 1, NACRE_DEPTH_HARDWARE),
+                     slabLight(NACRE_LIGHT_DIRECTIONAL, 2, NACRE_DEPTH_HARDWARE),
+                     slabLight(NACRE_LIGHT_DIRECTIONAL, 4, NACRE_DEPTH_HARDWARE),
+                     slabLight(NACRE_LIGHT_POINT, 5, NACRE_DEPTH_LINEAR)};
+    // Linear: nothing, and a body's back, beside the slab.
+    setMatrix(result.lights[0].shadowClipFromWorld, reach, false);
+    addLayer(result, [](double x, double y) { return y > 0.6 ? 1.0 : (y < -0.7 ? -1e-3 : 1e-3) * farSide(x); });
+    setMatrix(result.lights[1].shadowClipFromWorld, reach / lightDistance, true);
+    result.lights[1].innerConeAngle = 0.05f;
+    result.lights[1].outerConeAngle = 0.1f;
+    result.lights[1].attenuation[0] = 0.5f;
+    result.lights[1].attenuation[2] = 1;
+    addLayer(result, [](double x, double) { return 100 / farSide(x); });
+    // Two cascades, of which the second has twice the reach of the first.
+    result.cascades.resize(1);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const double cascadeReach = 25.0 * (i + 1);
+        NacreShadowCascade& cascade = result.cascades[0][i];
+        setMatrix(cascade.clipFromWorld, cascadeReach, false);
+        cascade.layer = 2 + i;
+        addLayer(result, [=](double x, double) { return 1e-3 * farSide(x * cascadeReach / reach) + 1e-4 * i; });
+    }
+    result.lights[2].cascadeCount = 2;
+    result.lights[2].cascades = result.cascades[0].data();
+    result.lights[2].cascadeBlend = 0.3f;
+    // Only an atlas's quarter, of what looks away from the light: the receiver itself.
+    result.lights[3].shadowRectangle = {{20, 10}, {24, 30}};
+    result.lights[3].shadowFrontFacesCulled = VK_TRUE;
+    setMatrix(result.lights[3].shadowClipFromWorld, reach, false);
+    addLayer(result, [](double, double y) { return 1e-3 * (y > 0.2 ? 480 : 500); });
+    for (int face = 0; face < 6; ++face) {
+        addLayer(result, [face](double x, double y) {
+            return face == 4 ? 1e-3 * (lightDistance - slabThickness) * std::sqrt(1 + x * x + y * y) : 1.0;
+        });
+    }
+    result.lights[4].range = 2000;
+    return result;
+}
+
 void check(NacreResult result, const Effect& effect) {
     if (result != NACRE_SUCCESS) {
         throw std::runtime_error(effect.messages.empty() ? nacreResultString(result) : effect.messages.back());
     }
 }
 
-GpuImage createOutput(Gpu& gpu, VkExtent2D extent) {
-    GpuImage image = gpu.createImage({.format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                      .extent = extent,
-                                      .usage = VK_IMAGE_USAGE_STORAGE_BIT,
-                                      .layout = VK_IMAGE_LAYOUT_GENERAL});
-    gpu.upload(image, std::vector<std::uint16_t>(std::size_t{4} * extent.width * extent.height));
+GpuImage createOutput(Gpu& gpu, VkExtent2D extent, VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT) {
+    GpuImage image = gpu.createImage(
+        {.format = format, .extent = extent, .usage = VK_IMAGE_USAGE_STORAGE_BIT, .layout = VK_IMAGE_LAYOUT_GENERAL});
+    gpu.upload(image, std::vector<std::byte>(texelBytes(format) * extent.width * extent.height));
     return image;
+}
+
+constexpr VkFormat halves = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+/// What scatter reads, under its name.
+void addImages(Gpu& gpu, StoredFrame& stored, const ScatterImages& images) {
+    const std::pair<const char*, const NacreImage*> slots[] = {
+        {"irradiance", &images.info.irradiance}, {"depth", &images.info.depth},
+        {"materialId", &images.info.materialId}, {"normal", &images.info.normal},
+        {"strength", &images.info.strength},     {"albedo", &images.info.albedo}};
+    std::size_t next = 0; // those that are given follow one another
+    for (const auto& [name, slot] : slots) {
+        if (slot->view != VK_NULL_HANDLE) {
+            stored.addImage(gpu, name, images.images[next++]);
+        }
+    }
+}
+
+GpuImage createInput(Gpu& gpu, VkExtent2D extent, VkFormat format) {
+    return gpu.createImage({.format = format,
+                            .extent = extent,
+                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                            .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+}
+
+/// What light comes through of a frame's lights.
+void storeTransmit(Effect& effect, const Case& frame, const ScatterImages& images, StoredFrame& stored) {
+    Gpu& gpu = effect.gpu;
+    const VkExtent2D extent = frame.input.extent;
+    const GpuImage maps = gpu.createShadowMap(frame.mapSize, frame.shadowMaps);
+    const NacreImage map = maps.nacre();
+    const GpuImage transmitted = createOutput(gpu, extent);
+    const GpuImage thicknessOut = createOutput(gpu, extent, VK_FORMAT_R32_SFLOAT);
+    NacreTransmitInfo info = images.transmitInfo(frame.lights, std::span(&map, 1));
+    GpuImage thickness;
+    if (!frame.thickness.empty()) {
+        thickness = createInput(gpu, extent, VK_FORMAT_R32_SFLOAT);
+        gpu.upload(thickness, frame.thickness);
+        info.thickness = thickness.nacre();
+        stored.addImage(gpu, "thickness", thickness);
+    }
+    info.transmitted = transmitted.nacre();
+    info.thicknessOut = thicknessOut.nacre();
+    gpu.run([&](VkCommandBuffer commands) { check(nacreCmdTransmit(effect.context, commands, &info), effect); });
+    stored.addImage(gpu, "shadowMaps", maps);
+    stored.addTransmit(gpu, info, transmitted, thicknessOut);
 }
 
 /// Runs the library on a frame, and stores both.
@@ -165,44 +322,41 @@ void store(Gpu& gpu, const Case& frame, const std::filesystem::path& folder) {
     contextInfo.shaderFloat16 = VK_FALSE; // WGSL computes in floats
     Effect effect(gpu, contextInfo);
     check(nacreSetMaterials(effect.context, 1, contextInfo.maxMaterials, frame.materials.data()), effect);
-    ScatterImages images(gpu, frame.input,
-                         {.irradiance = VK_FORMAT_R16G16B16A16_SFLOAT, .albedo = VK_FORMAT_R16G16B16A16_SFLOAT});
+    ScatterImages images(gpu, frame.input, {.irradiance = halves, .albedo = halves});
     const GpuImage scattered = createOutput(gpu, extent);
     images.info.scattered = scattered.nacre();
     images.info.technique = NACRE_TECHNIQUE_BANK;
     check(nacreBeginFrame(effect.context, 0), effect);
     gpu.run([&](VkCommandBuffer commands) { check(nacreCmdScatter(effect.context, commands, &images.info), effect); });
     StoredFrame stored(folder / frame.name, extent, frame.materials);
-    const char* const names[] = {"irradiance", "depth", "materialId", "normal", "strength", "albedo"};
-    std::size_t next = 0;
-    const NacreImage* const slots[] = {&images.info.irradiance, &images.info.depth,    &images.info.materialId,
-                                       &images.info.normal,     &images.info.strength, &images.info.albedo};
-    for (std::size_t i = 0; i < std::size(names); ++i) {
-        if (slots[i]->view != VK_NULL_HANDLE) {
-            stored.addImage(gpu, names[i], images.images[next++]);
-        }
-    }
+    addImages(gpu, stored, images);
     stored.addScatter(gpu, images.info, scattered);
     if (!frame.lights.empty()) {
-        const GpuImage maps = gpu.createShadowMap(frame.mapSize, frame.shadowMaps);
-        const GpuImage transmitted = createOutput(gpu, extent);
-        const NacreImage map = maps.nacre();
-        NacreTransmitInfo info = images.transmitInfo(frame.lights, std::span(&map, 1));
-        info.transmitted = transmitted.nacre();
-        gpu.run([&](VkCommandBuffer commands) { check(nacreCmdTransmit(effect.context, commands, &info), effect); });
-        stored.addImage(gpu, "shadowMaps", maps);
-        stored.addTransmit(gpu, info, transmitted);
+        storeTransmit(effect, frame, images, stored);
     }
-    stored.finish();
+    if (!frame.surfaceColor.empty()) { // after the calls: they do not have it
+        GpuImage albedo = createInput(gpu, extent, halves);
+        uploadLight(gpu, albedo, frame.surfaceColor);
+        stored.addImage(gpu, "albedo", albedo);
+    }
+    stored.finish(frame.exposure);
     std::cout << (folder / frame.name).string() << '\n';
 }
 
-void storeAll(const std::filesystem::path& folder) {
+void storeAll(const std::filesystem::path& folder, std::span<char* const> names) {
+    const std::pair<std::string, std::function<Case()>> cases[] = {
+        {"gallery", galleryCase},
+        {"spheres", [] { return syntheticCase(SceneKind::Spheres, 60); }},
+        {"thin", [] { return syntheticCase(SceneKind::Thin, 20); }},
+        {"everything", everythingCase},
+        {"lights", lightsCase},
+    };
     Gpu& gpu = Gpu::instance();
-    store(gpu, galleryCase(), folder);
-    store(gpu, syntheticCase(SceneKind::Spheres, 60), folder);
-    store(gpu, syntheticCase(SceneKind::Thin, 20), folder);
-    store(gpu, everythingCase(), folder);
+    for (const auto& [name, make] : cases) {
+        if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) {
+            store(gpu, make(), folder);
+        }
+    }
     for (const std::string& message : gpu.takeMessages()) {
         throw std::runtime_error(message);
     }
@@ -212,12 +366,12 @@ void storeAll(const std::filesystem::path& folder) {
 } // namespace nacre::tests
 
 int main(int count, char** arguments) {
-    if (count != 2) {
-        std::cerr << "usage: store_frames FOLDER\n";
+    if (count < 2) {
+        std::cerr << "usage: store_frames FOLDER [FRAME...]\n";
         return 2;
     }
     try {
-        nacre::tests::storeAll(arguments[1]);
+        nacre::tests::storeAll(arguments[1], std::span(arguments, count).subspan(2));
     } catch (const std::exception& error) {
         std::cerr << "store_frames: " << error.what() << '\n';
         return 1;

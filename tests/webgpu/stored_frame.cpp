@@ -139,9 +139,8 @@ nlohmann::json StoredFrame::callJson(const char* name, NacreTechnique technique,
                         {"separateMaterials", areSeparate(materials_)},
                         {"bindings", nlohmann::json::array()},
                         {"passes", nlohmann::json::array()}};
-    const auto bindings = listed<NacreBinding>([&](std::uint32_t* count, NacreBinding* all) {
-        return nacreGetBindings(technique, extent_, count, all);
-    });
+    const auto bindings = listed<NacreBinding>(
+        [&](std::uint32_t* count, NacreBinding* all) { return nacreGetBindings(technique, extent_, count, all); });
     for (const NacreBinding& binding : bindings) {
         nlohmann::json json{{"name", binding.name}, {"binding", binding.binding}, {"kind", kindOf(binding)}};
         const bool isBuffer = json["kind"] == "uniform" || json["kind"] == "storage";
@@ -162,7 +161,7 @@ nlohmann::json StoredFrame::callJson(const char* name, NacreTechnique technique,
     return call;
 }
 
-void StoredFrame::addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuImage& expected) {
+void StoredFrame::addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuImage& scattered) {
     const std::uint32_t images = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
                                  bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
     const auto bindings = listed<NacreBinding>([&](std::uint32_t* count, NacreBinding* all) {
@@ -172,14 +171,15 @@ void StoredFrame::addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuIm
     check(nacreFillScatterParameters(&info, images, &messages, parameters.size(), parameters.data()));
     nlohmann::json call =
         callJson("bank", NACRE_TECHNIQUE_BANK, areaOf(info.view, info.irradiance.extent), parameters, {});
-    call["output"] = "scattered";
-    call["expected"] = imageJson(gpu, "scattered", expected);
+    call["expected"]["scattered"] = imageJson(gpu, "scattered", scattered);
     json_["calls"].push_back(call);
 }
 
-void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const GpuImage& expected) {
+void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const GpuImage& transmitted,
+                              const GpuImage& thickness) {
     const std::uint32_t images = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
-                                 bitOf(NACRE_IMAGE_THICKNESS, info.thickness);
+                                 bitOf(NACRE_IMAGE_THICKNESS, info.thickness) |
+                                 bitOf(NACRE_IMAGE_THICKNESS_OUT, info.thicknessOut);
     const auto bindings = listed<NacreBinding>([&](std::uint32_t* count, NacreBinding* all) {
         return nacreGetBindings(NACRE_TECHNIQUE_TRANSMIT, extent_, count, all);
     });
@@ -192,12 +192,13 @@ void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const Gpu
     nlohmann::json call =
         callJson("transmit", NACRE_TECHNIQUE_TRANSMIT, areaOf(info.view, info.depth.extent), parameters, lights);
     call["generalLights"] = nacreNeedsGeneralLights(&info) == VK_TRUE;
-    call["output"] = "transmitted";
-    call["expected"] = imageJson(gpu, "transmitted", expected);
+    call["expected"]["transmitted"] = imageJson(gpu, "transmitted", transmitted);
+    call["expected"]["thicknessOut"] = imageJson(gpu, "thicknessOut", thickness);
     json_["calls"].push_back(call);
 }
 
-void StoredFrame::finish() const {
+void StoredFrame::finish(double exposure) {
+    json_["exposure"] = exposure;
     const std::string text = json_.dump(1);
     write("frame.json", std::as_bytes(std::span(text)));
 }

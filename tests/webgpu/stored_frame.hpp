@@ -1,5 +1,5 @@
-// One frame's calls as files that another implementation of the passes can run: frame.json, and what it names. Inputs, what
-// the passes read beside them (nacre_passes.h), and what the library's own passes wrote.
+// One frame's calls as files that another implementation of the passes can run: frame.json, and what it names. Inputs,
+// what the passes read beside them (nacre_passes.h), and what the library's own passes wrote.
 #pragma once
 
 #include "nacre/nacre_passes.h"
@@ -18,12 +18,12 @@ public:
 
     /// An image under its name in NacreScatterInfo and NacreTransmitInfo; `shadowMaps` is an array.
     void addImage(Gpu& gpu, const std::string& name, const GpuImage& image);
-    /// A call with the bank; `expected` is what nacreCmdScatter wrote.
-    void addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuImage& expected);
+    /// A call with the bank; `scattered` is what nacreCmdScatter wrote.
+    void addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuImage& scattered);
     /// Likewise with nacreCmdTransmit.
-    void addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const GpuImage& expected);
-    /// Writes frame.json.
-    void finish() const;
+    void addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const GpuImage& transmitted, const GpuImage& thickness);
+    /// Writes frame.json. `exposure`: what a picture of the frame is multiplied by.
+    void finish(double exposure);
 
 private:
     /// Writes a file and returns its name.
