@@ -144,6 +144,9 @@ nlohmann::json StoredFrame::callJson(const char* name, NacreTechnique technique,
     for (const NacreBinding& binding : bindings) {
         nlohmann::json json{{"name", binding.name}, {"binding", binding.binding}, {"kind", kindOf(binding)}};
         const bool isBuffer = json["kind"] == "uniform" || json["kind"] == "storage";
+        if (!isBuffer && binding.intermediate) {
+            continue; // stands in for shadow maps that are not given
+        }
         if (isBuffer && binding.intermediate) {
             json["bytes"] = binding.head;
         } else if (isBuffer) {
