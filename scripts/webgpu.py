@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 
-LEAST_PSNR = {"scattered": 60.0, "transmitted": 60.0, "thicknessOut": 60.0}  # dB over the pixels that have a material
+LEAST_PSNR = {"scattered": 66.0, "transmitted": 68.0, "thicknessOut": 60.0}  # dB where there is a material
 LARGEST_ELSEWHERE = 1e-3  # rounding to half floats
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "examples" / "webgpu"
 
