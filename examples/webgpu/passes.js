@@ -73,6 +73,9 @@ function uploadImage(device, frame, image) {
     return texture;
 }
 
+// The constants that passes have, as nacre_passes.h numbers them.
+const constantIds = {separateMaterials: 0, generalLights: 1, noMaterialIds: 1000, normalEncoding: 1001};
+
 // One call of the effect on a frame: its buffers, textures and pipelines. `codes`: the modules by the passes' names.
 export class Call {
     constructor(device, frame, call, codes) {
@@ -111,13 +114,9 @@ export class Call {
     createPass(pass, code) {
         const entries = layoutEntries(code);
         const layout = this.device.createBindGroupLayout({label: pass.file, entries});
-        const constants = {};
-        if (code.includes('override separateMaterials')) {
-            constants[0] = this.call.separateMaterials ? 1 : 0;
-        }
-        if (code.includes('override generalLights')) {
-            constants[1] = this.call.generalLights ? 1 : 0;
-        }
+        const isAsked = ([name]) => code.includes(`override ${name}`);
+        const constants = Object.fromEntries(
+            Object.entries(this.call.constants).filter(isAsked).map(([name, value]) => [constantIds[name], value]));
         const pipeline = this.device.createComputePipeline({
             label: pass.file,
             layout: this.device.createPipelineLayout({bindGroupLayouts: [layout]}),

@@ -13,5 +13,5 @@ for program in chromium python3; do
 done
 frames=$(mktemp -d)
 trap 'rm -rf "$frames"' EXIT
-"$store_frames" "$frames" spheres everything lights
+"$store_frames" "$frames" spheres everything lights encoded
 "$source/scripts/webgpu.py" "$modules" "$frames" --check

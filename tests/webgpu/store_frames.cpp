@@ -31,6 +31,7 @@ struct Case {
     std::uint32_t mapSize = 0;
     std::vector<float> thickness;                            ///< mm; empty = none
     std::vector<std::array<NacreShadowCascade, 2>> cascades; ///< of the lights that have some
+    bool isEncoded = false;                                  ///< without ids, with octahedral normals in view space
     std::vector<Float4> surfaceColor;                        ///< albedo that the effect does not get, for pictures
     double exposure = 3.14159265;                            ///< of pictures
 };
@@ -254,6 +255,31 @@ Case lightsCase() {
     return result;
 }
 
+/// A normal as NACRE_NORMAL_OCTAHEDRAL has it.
+Float4 octahedral(const Float4& n) {
+    const float sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
+    const float x = n[0] / sum;
+    const float y = n[1] / sum;
+    return n[2] >= 0 ? Float4{x, y, 0, 0}
+                     : Float4{std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), 0, 0};
+}
+
+/// The same slab of one material where its strength says so, some of whose normals look away from the camera.
+Case encodedCase() {
+    Case result = lightsCase();
+    result.name = "encoded";
+    result.isEncoded = true;
+    result.materials.resize(1);
+    for (std::size_t i = 0; i < result.input.normal.size(); ++i) {
+        result.input.strength.push_back(result.input.materialId[i] == 1   ? 0.6f
+                                        : result.input.materialId[i] == 0 ? 0
+                                                                          : 1);
+        result.input.materialId[i] = result.input.strength[i] > 0 ? 1 : 0; // for who compares
+        result.input.normal[i] = octahedral(i % 5 == 0 ? Float4{0.36f, -0.48f, -0.8f, 0} : result.input.normal[i]);
+    }
+    return result;
+}
+
 void check(NacreResult result, const Effect& effect) {
     if (result != NACRE_SUCCESS) {
         throw std::runtime_error(effect.messages.empty() ? nacreResultString(result) : effect.messages.back());
@@ -308,7 +334,9 @@ void storeTransmit(Effect& effect, const Case& frame, const ScatterImages& image
     }
     info.transmitted = transmitted.nacre();
     info.thicknessOut = thicknessOut.nacre();
-    gpu.run([&](VkCommandBuffer commands) { check(nacreCmdTransmit(effect.context, commands, &info), effect); });
+    NacreTransmitInfo called = info;
+    called.materialId = frame.isEncoded ? NacreImage{} : info.materialId;
+    gpu.run([&](VkCommandBuffer commands) { check(nacreCmdTransmit(effect.context, commands, &called), effect); });
     stored.addImage(gpu, "shadowMaps", maps);
     stored.addTransmit(gpu, info, transmitted, thicknessOut);
 }
@@ -320,6 +348,9 @@ void store(Gpu& gpu, const Case& frame, const std::filesystem::path& folder) {
     contextInfo.techniques = 1u << NACRE_TECHNIQUE_BANK;
     contextInfo.maxMaterials = static_cast<std::uint32_t>(frame.materials.size());
     contextInfo.shaderFloat16 = VK_FALSE; // WGSL computes in floats
+    contextInfo.noMaterialIds = frame.isEncoded;
+    contextInfo.normalEncoding = frame.isEncoded ? NACRE_NORMAL_OCTAHEDRAL : NACRE_NORMAL_XYZ;
+    contextInfo.normalSpace = frame.isEncoded ? NACRE_NORMAL_VIEW : NACRE_NORMAL_WORLD;
     Effect effect(gpu, contextInfo);
     check(nacreSetMaterials(effect.context, 1, contextInfo.maxMaterials, frame.materials.data()), effect);
     ScatterImages images(gpu, frame.input, {.irradiance = halves, .albedo = halves});
@@ -327,8 +358,10 @@ void store(Gpu& gpu, const Case& frame, const std::filesystem::path& folder) {
     images.info.scattered = scattered.nacre();
     images.info.technique = NACRE_TECHNIQUE_BANK;
     check(nacreBeginFrame(effect.context, 0), effect);
-    gpu.run([&](VkCommandBuffer commands) { check(nacreCmdScatter(effect.context, commands, &images.info), effect); });
-    StoredFrame stored(folder / frame.name, extent, frame.materials);
+    NacreScatterInfo scatter = images.info;
+    scatter.materialId = frame.isEncoded ? NacreImage{} : scatter.materialId;
+    gpu.run([&](VkCommandBuffer commands) { check(nacreCmdScatter(effect.context, commands, &scatter), effect); });
+    StoredFrame stored(folder / frame.name, extent, contextInfo, frame.materials);
     addImages(gpu, stored, images);
     stored.addScatter(gpu, images.info, scattered);
     if (!frame.lights.empty()) {
@@ -350,6 +383,7 @@ void storeAll(const std::filesystem::path& folder, std::span<char* const> names)
         {"thin", [] { return syntheticCase(SceneKind::Thin, 20); }},
         {"everything", everythingCase},
         {"lights", lightsCase},
+        {"encoded", encodedCase},
     };
     Gpu& gpu = Gpu::instance();
     for (const auto& [name, make] : cases) {

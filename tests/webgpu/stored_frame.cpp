@@ -81,9 +81,14 @@ bool areSeparate(std::span<const NacreMaterial> materials) {
 
 } // namespace
 
-StoredFrame::StoredFrame(std::filesystem::path folder, VkExtent2D extent, std::span<const NacreMaterial> materials)
+StoredFrame::StoredFrame(std::filesystem::path folder, VkExtent2D extent, const NacreContextInfo& context,
+                         std::span<const NacreMaterial> materials)
     : folder_(std::move(folder)),
       extent_(extent),
+      constants_{{"separateMaterials", areSeparate(materials) ? 1 : 0},
+                 {"noMaterialIds", context.noMaterialIds},
+                 {"normalEncoding", (context.normalEncoding == NACRE_NORMAL_OCTAHEDRAL ? 1 : 0) |
+                                        (context.normalSpace == NACRE_NORMAL_VIEW ? 2 : 0)}},
       materials_(materials.begin(), materials.end()),
       json_{{"extent", {extent.width, extent.height}},
             {"images", nlohmann::json::object()},
@@ -136,7 +141,7 @@ std::vector<std::byte> StoredFrame::contents(NacreTechnique technique, const Nac
 nlohmann::json StoredFrame::callJson(const char* name, NacreTechnique technique, VkExtent2D area,
                                      std::span<const std::byte> parameters, std::span<const std::byte> lights) const {
     nlohmann::json call{{"name", name},
-                        {"separateMaterials", areSeparate(materials_)},
+                        {"constants", constants_},
                         {"bindings", nlohmann::json::array()},
                         {"passes", nlohmann::json::array()}};
     const auto bindings = listed<NacreBinding>(
@@ -194,7 +199,7 @@ void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const Gpu
     check(nacreFillLights(&info, &messages, lights.size(), lights.data()));
     nlohmann::json call =
         callJson("transmit", NACRE_TECHNIQUE_TRANSMIT, areaOf(info.view, info.depth.extent), parameters, lights);
-    call["generalLights"] = nacreNeedsGeneralLights(&info) == VK_TRUE;
+    call["constants"]["generalLights"] = nacreNeedsGeneralLights(&info);
     call["expected"]["transmitted"] = imageJson(gpu, "transmitted", transmitted);
     call["expected"]["thicknessOut"] = imageJson(gpu, "thicknessOut", thickness);
     json_["calls"].push_back(call);

@@ -13,8 +13,9 @@ namespace nacre::tests {
 
 class StoredFrame {
 public:
-    /// The folder is made. `materials`: 1, 2, …
-    StoredFrame(std::filesystem::path folder, VkExtent2D extent, std::span<const NacreMaterial> materials);
+    /// The folder is made. `context`: whose calls they are. `materials`: 1, 2, …
+    StoredFrame(std::filesystem::path folder, VkExtent2D extent, const NacreContextInfo& context,
+                std::span<const NacreMaterial> materials);
 
     /// An image under its name in NacreScatterInfo and NacreTransmitInfo; `shadowMaps` is an array.
     void addImage(Gpu& gpu, const std::string& name, const GpuImage& image);
@@ -36,6 +37,7 @@ private:
 
     std::filesystem::path folder_;
     VkExtent2D extent_;
+    nlohmann::json constants_; ///< of all passes, by their names in WGSL
     std::vector<NacreMaterial> materials_;
     nlohmann::json json_;
 };
