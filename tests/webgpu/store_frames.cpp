@@ -252,6 +252,11 @@ Case lightsCase() {
         });
     }
     result.lights[4].range = 2000;
+    // One from the side without a map, which only authored thickness lets through.
+    result.lights.push_back(slabLight(NACRE_LIGHT_DIRECTIONAL, 0, NACRE_DEPTH_LINEAR));
+    result.lights[5].direction[0] = 5;
+    result.lights[5].irradiance[0] = 20;
+    result.lights[5].shadowMap = NACRE_NO_SHADOW_MAP;
     return result;
 }
 
@@ -275,7 +280,7 @@ Case encodedCase() {
                                         : result.input.materialId[i] == 0 ? 0
                                                                           : 1);
         result.input.materialId[i] = result.input.strength[i] > 0 ? 1 : 0; // for who compares
-        result.input.normal[i] = octahedral(i % 5 == 0 ? Float4{0.36f, -0.48f, -0.8f, 0} : result.input.normal[i]);
+        result.input.normal[i] = octahedral(i % 5 == 0 ? Float4{0.4f, -0.5f, -0.77f, 0} : result.input.normal[i]);
     }
     return result;
 }
