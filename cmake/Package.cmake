@@ -56,6 +56,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/effect/ DESTINATION ${CMAKE_INSTALL_DATA
         ${no_baselines})
 get_target_property(spirv nacre NACRE_SPIRV)
 install(FILES ${spirv} DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre/spirv COMPONENT nacre)
+# And the passes that there are in WGSL, each a module.
+get_target_property(wgsl nacre NACRE_WGSL)
+install(FILES ${wgsl} DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre/wgsl COMPONENT nacre)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/nacreConfig.cmake.in ${PROJECT_BINARY_DIR}/nacreConfig.cmake
                               INSTALL_DESTINATION ${package_directory} PATH_VARS CMAKE_INSTALL_DATADIR)

@@ -84,3 +84,23 @@ function(nacre_shader target source)
                         ${CMAKE_CURRENT_SOURCE_DIR}/${source})
     endif()
 endfunction()
+
+# nacre_wgsl(TARGET SOURCE...): each pass in WGSL as a module without includes, wgsl/NAME.wgsl in the build folder. They are
+# listed in target property NACRE_WGSL.
+function(nacre_wgsl target)
+    set(directory ${PROJECT_BINARY_DIR}/wgsl)
+    file(MAKE_DIRECTORY ${directory})
+    # What any of them may include.
+    file(GLOB_RECURSE parts CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.wgsl ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+    foreach(source ${ARGN})
+        get_filename_component(file ${source} NAME)
+        add_custom_command(
+            OUTPUT ${directory}/${file}
+            COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${source} -DOUTPUT=${directory}/${file}
+                    -DROOT=${CMAKE_CURRENT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/ExpandWgsl.cmake
+            DEPENDS ${parts} ${PROJECT_SOURCE_DIR}/cmake/ExpandWgsl.cmake
+            COMMENT "WGSL ${file}"
+            VERBATIM)
+        set_property(TARGET ${target} APPEND PROPERTY NACRE_WGSL ${directory}/${file})
+    endforeach()
+endfunction()

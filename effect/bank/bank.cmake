@@ -7,3 +7,4 @@ nacre_shader(nacre bank/bank_combine_edge.comp NAME bank_combine_edge TRANSLATED
 nacre_shader(nacre bank/bank_reduce.comp NAME bank_surfaces_reduce TRANSLATED DEFINES SECOND_SURFACES)
 nacre_shader(nacre bank/bank_blur.comp NAME bank_surfaces_blur TRANSLATED DEFINES SECOND_SURFACES)
 nacre_shader(nacre bank/bank_combine_edge.comp NAME bank_surfaces_combine_edge TRANSLATED DEFINES SECOND_SURFACES)
+nacre_wgsl(nacre bank/bank_reduce.wgsl bank/bank_blur.wgsl bank/bank_combine_smooth.wgsl bank/bank_combine_edge.wgsl)

@@ -92,6 +92,12 @@ for kind in static shared; do
     while read -r pass; do
         clean glslc --target-env=vulkan1.2 -I "$shaders" "$pass" -o pass.spv
     done < passes.txt
+    # Every pass in WGSL is whole, too: it has no includes left.
+    modules=$(ask --variable=wgsl)
+    for module in bank_reduce bank_blur bank_combine_smooth bank_combine_edge transmit; do
+        [ "$(grep -c '^fn main(' "$modules/$module.wgsl")" -eq 1 ]
+        [ "$(grep -c '#include' "$modules/$module.wgsl")" -eq 0 ]
+    done
 done
 
 for kind in static shared; do
