@@ -137,6 +137,23 @@ TEST_F(ShadowChoiceTest, WhereNothingWasDrawnNothingShines) {
     EXPECT_EQ(lightWith(-0.5f, static_cast<float>(2 * entry)), 0) << "a body's back is no entry";
 }
 
+/// Texels as large as light goes far do not tell; where they are empty nothing shadows, either.
+TEST_F(ShadowChoiceTest, WhereACoarseMapIsEmptyTheAuthoredThicknessStandsIn) {
+    setMaterial(1);
+    const double through = makeProfile(marble())->slabTransmittance(0, 1);
+    NacreLight source = light(NACRE_LIGHT_SPOT);
+    setMatrix(source.shadowClipFromWorld, perspectiveInfinite, 0.8);
+    source.shadowRange = 450; // nearer to the light than the receivers
+    for (const NacreDepthEncoding encoding : {NACRE_DEPTH_HARDWARE, NACRE_DEPTH_LINEAR}) {
+        source.shadowDepthEncoding = encoding;
+        const float nothing = encoding == NACRE_DEPTH_HARDWARE ? 0.0f : 1.0f;
+        const GpuImage map = createMap(VK_FORMAT_R32_SFLOAT, {7, 7}, std::vector<float>(7 * 7, nothing));
+        const NacreImage maps[] = {map.nacre()};
+        const double expected = through / (0.5 * 0.5);
+        EXPECT_NEAR(transmit(plane, source, maps).light[at(20, 20)][0], expected, 0.02 * expected) << encoding;
+    }
+}
+
 /// By map: the first that has the point in it; over its border it goes over into the next, whatever farDepth says.
 TEST_F(ShadowChoiceTest, CascadesByMapBlendTowardsTheNearerBorder) {
     constexpr double reach = 12;
