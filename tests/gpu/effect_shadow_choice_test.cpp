@@ -3,6 +3,8 @@
 #include "tests/gpu/support/shadow_maps.hpp"
 
 #include <array>
+#include <limits>
+#include <utility>
 
 using namespace nacre;
 using namespace nacre::tests;
@@ -31,7 +33,7 @@ protected:
 };
 
 TEST_F(ShadowChoiceTest, EveryFaceOfACubeLiesAsVulkanSays) {
-    constexpr std::uint32_t size = 512;
+    constexpr std::uint32_t size = 512, firstLayer = 2;
     constexpr double far = 500, slopes[] = {0.2, -0.3};
     for (int face = 0; face < 6; ++face) {
         const Vector along = cubeDirection(face, 0, 0);
@@ -51,11 +53,12 @@ TEST_F(ShadowChoiceTest, EveryFaceOfACubeLiesAsVulkanSays) {
         for (int i = 0; i < 3; ++i) {
             source.position[i] = static_cast<float>((i == 2 ? -receiverDepth : 0) - far * along[i]);
         }
-        std::vector<float> values(6 * size * size, 1);
+        source.shadowLayer = firstLayer;
+        std::vector<float> values((firstLayer + 6) * size * size, 1);
         for (std::uint32_t i = 0; i < size * size; ++i) {
             const Vector direction =
                 cubeDirection(face, 2 * (i % size + 0.5) / size - 1, 2 * (i / size + 0.5) / size - 1);
-            values[face * size * size + i] = static_cast<float>(entry(direction) / 2000);
+            values[(firstLayer + face) * size * size + i] = static_cast<float>(entry(direction) / 2000);
         }
         const GpuImage map = createMap(VK_FORMAT_R32_SFLOAT, {size, size}, values);
         const NacreImage maps[] = {map.nacre()};
@@ -201,6 +204,108 @@ TEST_F(ShadowChoiceTest, ACascadeThatLacksThePointLeavesItToTheNext) {
     EXPECT_NEAR(result.thickness[at(20, 20)], 1, 0.02);
     EXPECT_NEAR(result.thickness[at(2, 20)], 2, 0.04);
     EXPECT_NEAR(result.thickness[at(20, 37)], 2, 0.04);
+}
+
+/// What hardware depth has, linear depth has by itself: rectangles, culled front faces, and cascades with ranges.
+TEST_F(ShadowChoiceTest, LinearMapsHaveAllOfIt) {
+    NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+    source.shadowDepthEncoding = NACRE_DEPTH_LINEAR;
+    source.shadowRange = 1000;
+    setMatrix(source.shadowClipFromWorld, orthographic, 60);
+    constexpr double distance = lightDepth - receiverDepth;
+    const auto thicknessBy = [&](VkExtent2D size, const std::vector<float>& values) {
+        const GpuImage map = createMap(VK_FORMAT_R32_SFLOAT, size, values);
+        const NacreImage maps[] = {map.nacre()};
+        return transmit(plane, source, maps).thickness[at(20, 20)];
+    };
+    std::vector<float> atlas(128 * 100, 0.4f);
+    for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+        atlas[(i / 64 + 20) * 128 + i % 64 + 50] = static_cast<float>((distance - thickness) / 1000);
+    }
+    source.shadowRectangle = {{50, 20}, {64, 64}};
+    EXPECT_NEAR(thicknessBy({128, 100}, atlas), thickness, 0.02 * thickness);
+    source.shadowRectangle = {};
+
+    source.shadowFrontFacesCulled = VK_TRUE;
+    setMaterial(1.5f);
+    EXPECT_NEAR(thicknessBy({64, 64}, std::vector<float>(64 * 64, static_cast<float>(distance / 1000))), 1.5, 0.03);
+    source.shadowFrontFacesCulled = VK_FALSE;
+    setMaterial(0);
+
+    NacreShadowCascade cascades[2]{};
+    std::vector<float> values(64 * 64, static_cast<float>((distance - 1) / 1000)); // in the light's range
+    values.insert(values.end(), 64 * 64, static_cast<float>((distance - 2) / 2000));
+    for (NacreShadowCascade& cascade : cascades) {
+        setMatrix(cascade.clipFromWorld, orthographic, 60);
+    }
+    cascades[1].layer = 1;
+    cascades[1].range = 2000;
+    cascades[1].farDepth = 600;
+    source.cascades = cascades;
+    source.cascadeCount = 2;
+    source.cascadeChoice = NACRE_CASCADE_BY_VIEW_DEPTH;
+    cascades[0].farDepth = 501;
+    EXPECT_NEAR(thicknessBy({64, 64}, values), 1, 0.02);
+    cascades[0].farDepth = 499;
+    EXPECT_NEAR(thicknessBy({64, 64}, values), 2, 0.04);
+}
+
+TEST_F(ShadowChoiceTest, LightsWithCascadesOfTheirOwnAddUp) {
+    NacreShadowCascade cascades[2]{};
+    NacreLight lights[2];
+    std::vector<float> values;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        setMatrix(cascades[i].clipFromWorld, orthographic, 60);
+        cascades[i].layer = i;
+        lights[i] = light(NACRE_LIGHT_DIRECTIONAL);
+        lights[i].cascades = &cascades[i];
+        lights[i].cascadeCount = 1;
+        const std::vector<float> layer = even(64, orthographic, 1 + i);
+        values.insert(values.end(), layer.begin(), layer.end());
+    }
+    const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {64, 64}, values);
+    const NacreImage maps[] = {map.nacre()};
+    const Result result = transmit(plane, lights, maps);
+    const std::unique_ptr<Profile> profile = makeProfile(marble());
+    const double expected = profile->slabTransmittance(0, 1) + profile->slabTransmittance(0, 2);
+    EXPECT_NEAR(result.thickness[at(20, 20)], 1, 0.02) << "the smallest";
+    EXPECT_NEAR(result.light[at(20, 20)][0], expected, 0.02 * expected);
+}
+
+TEST_F(ShadowChoiceTest, WrongMapsAreNamed) {
+    const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {64, 64}, even(64, orthographic, 1));
+    const auto refuse = [&](const std::function<void(NacreLight&)>& change, const std::string& sentence,
+                            VkFormat format = VK_FORMAT_R32_SFLOAT) {
+        NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+        setMatrix(source.shadowClipFromWorld, orthographic, 60);
+        source.shadowRange = 1000;
+        change(source);
+        NacreImage image = map.nacre();
+        image.format = format;
+        expectRefused(source, {&image, 1}, sentence);
+    };
+    const auto linear = [](NacreLight& source) { source.shadowDepthEncoding = NACRE_DEPTH_LINEAR; };
+    for (const auto& [format, name] : {std::pair{VK_FORMAT_D16_UNORM, "VK_FORMAT_D16_UNORM"},
+                                       std::pair{VK_FORMAT_X8_D24_UNORM_PACK32, "VK_FORMAT_X8_D24_UNORM_PACK32"},
+                                       std::pair{VK_FORMAT_D24_UNORM_S8_UINT, "VK_FORMAT_D24_UNORM_S8_UINT"},
+                                       std::pair{VK_FORMAT_D32_SFLOAT_S8_UINT, "VK_FORMAT_D32_SFLOAT_S8_UINT"}}) {
+        refuse(linear, std::string("has the depth format ") + name, format);
+    }
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    refuse([&](NacreLight& s) { linear(s), s.shadowRange = infinite; }, "lights[0].shadowRange is inf");
+    refuse([](NacreLight& s) { s.direction[0] = infinite; }, "lights[0].direction[0] is inf");
+    refuse([](NacreLight& s) { s.shadowClipFromWorld[1] = infinite; }, "lights[0].shadowClipFromWorld[1] is inf");
+    refuse([](NacreLight& s) { s.shadowRectangle = {{0, 1}, {64, 64}}; }, "shadowRectangle is 64x64 at 0,1, must lie");
+    refuse([](NacreLight& s) { s.shadowRectangle = {{-1, 0}, {8, 8}}; }, "shadowRectangle is 8x8 at -1,0, must lie");
+    refuse([](NacreLight& s) { s.shadowRectangle = {{0, 0}, {8, 0}}; }, "shadowRectangle is 8x0 at 0,0, must lie");
+    NacreShadowCascade cascade{};
+    setMatrix(cascade.clipFromWorld, orthographic, 60);
+    cascade.farDepth = infinite;
+    refuse(
+        [&](NacreLight& s) {
+            s.cascades = &cascade, s.cascadeCount = 1, s.cascadeChoice = NACRE_CASCADE_BY_VIEW_DEPTH;
+        },
+        "lights[0].cascades[0].farDepth is inf");
 }
 
 } // namespace

@@ -256,7 +256,7 @@ TEST_F(ShadowMapsTest, LightFallsOffAsItSays) {
             const double distance = 1e-3 * std::hypot(x(i % imageSize), x(i / imageSize), 500.0);
             const double cosine = 0.5 / distance;
             const double cone =
-                source.kind == NACRE_LIGHT_SPOT ? std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0) : 1;
+                source.outerConeAngle > 0 ? std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0) : 1;
             const double expected = through * cosine * cone * cone * falloff(distance);
             ASSERT_NEAR(result.light[i][0], expected, 0.02 * expected + 2e-3 * through)
                 << what << ", " << i % imageSize << ", " << i / imageSize;
@@ -273,10 +273,11 @@ TEST_F(ShadowMapsTest, LightFallsOffAsItSays) {
             },
             "range");
     }
-    source.kind = NACRE_LIGHT_POINT;
-    source.outerConeAngle = source.innerConeAngle = 0;
     source.range = 0;
-    const float attenuations[][3] = {{1, 0, 0}, {1, 0.5f, 2}, {0, 2, 0}};
+    source.kind = NACRE_LIGHT_POINT;
+    expectFalloff(square, "cone of a point light");
+    source.outerConeAngle = source.innerConeAngle = 0;
+    const float attenuations[][3] = {{1, 0, 0}, {1, 0.5f, 2}, {0, 2, 0}, {0, 0, 3}};
     for (const float(&a)[3] : attenuations) {
         std::copy(std::begin(a), std::end(a), source.attenuation);
         expectFalloff([&](double d) { return 1 / (a[0] + a[1] * d + a[2] * d * d); }, "attenuation");

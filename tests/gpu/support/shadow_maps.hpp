@@ -79,12 +79,12 @@ protected:
         std::vector<Float4> light;
         std::vector<float> thickness;
     };
-    NacreResult call(const ScatterInput& input, const NacreLight& light, std::span<const NacreImage> maps,
+    NacreResult call(const ScatterInput& input, std::span<const NacreLight> lights, std::span<const NacreImage> maps,
                      Result& result) {
         ScatterImages images(gpu, input);
         const GpuImage out = gpu.createImage(
             {.format = VK_FORMAT_R32_SFLOAT, .extent = input.extent, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
-        NacreTransmitInfo info = images.transmitInfo({&light, 1}, maps);
+        NacreTransmitInfo info = images.transmitInfo(lights, maps);
         info.thicknessOut = out.nacre();
         EXPECT_EQ(nacreBeginFrame(effect_->context, 0), NACRE_SUCCESS);
         NacreResult code = NACRE_SUCCESS;
@@ -96,6 +96,10 @@ protected:
     /// The surface as an orthographic camera at the origin sees it, lit by a light.
     Result transmit(const std::function<Surface(double x, double y)>& surface, const NacreLight& light,
                     std::span<const NacreImage> maps) {
+        return transmit(surface, std::span(&light, 1), maps);
+    }
+    Result transmit(const std::function<Surface(double x, double y)>& surface, std::span<const NacreLight> lights,
+                    std::span<const NacreImage> maps) {
         ScatterInput input =
             ScatterInput::plane(imageSize, imageSize, Projection::orthographic(imageSize, imageSize, 1 / pixel), 1);
         for (std::uint32_t i = 0; i < imageSize * imageSize; ++i) {
@@ -104,7 +108,7 @@ protected:
             input.normal.push_back(at.normal);
         }
         Result result;
-        EXPECT_EQ(call(input, light, maps, result), NACRE_SUCCESS)
+        EXPECT_EQ(call(input, lights, maps, result), NACRE_SUCCESS)
             << (effect_->messages.empty() ? "" : effect_->messages.back());
         return result;
     }
@@ -173,7 +177,7 @@ protected:
         ScatterInput input = ScatterInput::plane(8, 8, Projection::orthographic(8, 8, 1), 500);
         input.normal.assign(64, {0, 0, 1, 0});
         Result result;
-        EXPECT_NE(call(input, light, maps, result), NACRE_SUCCESS) << sentence;
+        EXPECT_NE(call(input, {&light, 1}, maps, result), NACRE_SUCCESS) << sentence;
         ASSERT_FALSE(effect_->messages.empty());
         EXPECT_NE(effect_->messages.back().find(sentence), std::string::npos) << effect_->messages.back();
     }
