@@ -1,6 +1,6 @@
 // Which map, which place of it and which cascade tells about a receiver, and what nothing tells: every one has a
 // thickness of its own here.
-#include "tests/gpu/support/shadow_maps.hpp"
+#include "tests/gpu/support/slab_maps.hpp"
 
 #include <array>
 #include <limits>

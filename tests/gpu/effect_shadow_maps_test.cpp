@@ -1,6 +1,6 @@
 // Shadow maps as engines have them, against closed forms: hardware depth of every projection and format, atlases,
 // cubes, culled front faces and cascades; and how light falls off on its way.
-#include "tests/gpu/support/shadow_maps.hpp"
+#include "tests/gpu/support/slab_maps.hpp"
 
 #include <cstdio>
 
