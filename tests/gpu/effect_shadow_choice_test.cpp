@@ -128,16 +128,17 @@ TEST_F(ShadowChoiceTest, WhereNothingWasDrawnNothingShines) {
     NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
     source.shadowDepthEncoding = NACRE_DEPTH_LINEAR;
     setMatrix(source.shadowClipFromWorld, orthographic, 60);
-    const auto lightWith = [&](float value, float range) {
+    const auto with = [&](float value, float range) {
         source.shadowRange = range;
         const GpuImage map = createMap(VK_FORMAT_R32_SFLOAT, {64, 64}, std::vector<float>(64 * 64, value));
         const NacreImage maps[] = {map.nacre()};
-        return transmit(plane, source, maps).light[at(20, 20)][0];
+        const Result result = transmit(plane, source, maps);
+        return std::pair(result.light[at(20, 20)][0], result.thickness[at(20, 20)]);
     };
     const double entry = lightDepth - receiverDepth - thickness;
-    EXPECT_GT(lightWith(0.5f, static_cast<float>(2 * entry)), 0.01);
-    EXPECT_EQ(lightWith(1, static_cast<float>(entry)), 0) << "1 is nothing, whatever the range";
-    EXPECT_EQ(lightWith(-0.5f, static_cast<float>(2 * entry)), 0) << "a body's back is no entry";
+    EXPECT_GT(with(0.5f, static_cast<float>(2 * entry)).first, 0.01);
+    EXPECT_EQ(with(1, static_cast<float>(entry)), std::pair(0.0f, 0.0f)) << "1 is nothing, whatever the range";
+    EXPECT_EQ(with(-0.5f, static_cast<float>(2 * entry)).first, 0) << "a body's back is no entry";
 }
 
 /// Texels as large as light goes far do not tell; where they are empty nothing shadows, either.
