@@ -273,6 +273,24 @@ TEST_F(ShadowChoiceTest, LightsWithCascadesOfTheirOwnAddUp) {
     EXPECT_NEAR(result.light[at(20, 20)][0], expected, 0.02 * expected);
 }
 
+TEST_F(ShadowChoiceTest, NormalsThatAreNoNumbersStayDarkAndStrengthEndsAtOne) {
+    const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {64, 64}, even(64, orthographic, 1));
+    const NacreImage maps[] = {map.nacre()};
+    NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+    setMatrix(source.shadowClipFromWorld, orthographic, 60);
+    ScatterInput input =
+        ScatterInput::plane(imageSize, imageSize, Projection::orthographic(imageSize, imageSize, 1 / pixel), 500);
+    input.normal.assign(input.depth.size(), {0, 0, 1, 0});
+    input.strength.assign(input.depth.size(), 1);
+    input.normal[at(5, 5)][0] = std::numeric_limits<float>::quiet_NaN();
+    input.strength[at(20, 20)] = 3;
+    Result result;
+    ASSERT_EQ(call(input, {&source, 1}, maps, result), NACRE_SUCCESS);
+    EXPECT_EQ(result.light[at(5, 5)][0], 0);
+    EXPECT_GT(result.light[at(21, 20)][0], 0.01f);
+    EXPECT_NEAR(result.light[at(20, 20)][0], result.light[at(21, 20)][0], 1e-4);
+}
+
 TEST_F(ShadowChoiceTest, WrongMapsAreNamed) {
     const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {64, 64}, even(64, orthographic, 1));
     const auto refuse = [&](const std::function<void(NacreLight&)>& change, const std::string& sentence,
