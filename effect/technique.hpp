@@ -40,6 +40,15 @@ inline constexpr Intermediate rowsIntermediate{.number = intermediateRows,
                                                .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                .extent = [](VkExtent2D extent) { return extent; }};
 
+/// Which of a pass's pipelines: a bit for every specialization constant that is true, by its constant_id. Asking costs
+/// nothing in the pipelines where it is false.
+using Variant = std::uint32_t;
+inline constexpr Variant separateMaterials = 1u << 0; ///< scatter's: some do not exchange light with some others
+inline constexpr Variant albedoOrStrength = 1u << 1;  ///< scatter's: such an image, or a material of strength below 1
+inline constexpr Variant severalShadowMaps = 1u << 0; ///< transmit's: more than one
+inline constexpr Variant generalLights = 1u << 1;     ///< transmit's: a light with more than a linear map of its own
+inline constexpr std::size_t variantCount = 4;
+
 /// One compute dispatch, or several of one pipeline.
 struct Pass {
     static constexpr std::uint32_t notIndirect = ~0u;
@@ -60,31 +69,9 @@ struct Pass {
     /// Instead of `grid`: the VkDispatchIndirectCommand is at indirectOffset of this intermediate.
     std::uint32_t indirect = notIndirect;
     VkDeviceSize indirectOffset = 0;
-    /// Whether it has the constant separateMaterials, true for frames where some materials do not exchange light with
-    /// some others: asking costs nothing where no one does.
-    bool hasSeparateMaterials = false;
-    /// The same with the constant severalShadowMaps, for calls with more than one.
-    bool hasSeveralShadowMaps = false;
-    /// The same with the constant albedoOrStrength, for calls with such an image or a material of strength below 1.
-    bool hasAlbedoOrStrength = false;
-    /// The same with the constant generalLights, for calls with a light that asks for more than a linear map of its
-    /// own.
-    bool hasGeneralLights = false;
+    /// The constants that it has.
+    Variant constants = 0;
 };
-
-/// Which of a pass's pipelines: a bit for every specialization constant that is true, by its constant_id.
-using Variant = std::uint32_t;
-inline constexpr Variant separateMaterials = 1u << 0;
-inline constexpr Variant severalShadowMaps = 1u << 0; // transmit's, where the former is scatter's
-inline constexpr Variant albedoOrStrength = 1u << 1;
-inline constexpr Variant generalLights = 1u << 1; // transmit's, where the former is scatter's
-inline constexpr std::size_t variantCount = 4;
-
-/// The constants that a pass has.
-constexpr Variant variantsOf(const Pass& pass) {
-    return (pass.hasSeparateMaterials ? separateMaterials : 0) | (pass.hasSeveralShadowMaps ? severalShadowMaps : 0) |
-           (pass.hasAlbedoOrStrength ? albedoOrStrength : 0) | (pass.hasGeneralLights ? generalLights : 0);
-}
 
 /// Dispatches of a pass for a render area.
 inline std::uint32_t repeatsOf(const Pass& pass, VkExtent2D area) {

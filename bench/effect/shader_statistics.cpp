@@ -97,17 +97,14 @@ void addForms(std::vector<PassForm>& forms, const std::string& technique, const 
               std::span<const std::uint32_t> spirv, const std::string& precision) {
     const std::string prefix = precision.empty() ? "" : precision + ", ";
     forms.push_back({technique, pass.name, precision, spirv});
-    if (pass.hasSeparateMaterials) {
-        forms.push_back({technique, pass.name, prefix + "separate materials", spirv, Constant{0, VK_TRUE}});
+    const bool isTransmit = technique == "transmit";
+    if ((pass.constants & 1u << 0) != 0) {
+        forms.push_back({technique, pass.name, prefix + (isTransmit ? "several shadow maps" : "separate materials"),
+                         spirv, Constant{0, VK_TRUE}});
     }
-    if (pass.hasSeveralShadowMaps) {
-        forms.push_back({technique, pass.name, prefix + "several shadow maps", spirv, Constant{0, VK_TRUE}});
-    }
-    if (pass.hasGeneralLights) {
-        forms.push_back({technique, pass.name, prefix + "general lights", spirv, Constant{1, VK_TRUE}});
-    }
-    if (pass.hasAlbedoOrStrength) {
-        forms.push_back({technique, pass.name, prefix + "no albedo and strength 1", spirv, Constant{1, VK_FALSE}});
+    if ((pass.constants & 1u << 1) != 0) { // by default false in transmit, else true
+        forms.push_back({technique, pass.name, prefix + (isTransmit ? "general lights" : "no albedo and strength 1"),
+                         spirv, Constant{1, isTransmit ? VK_TRUE : VK_FALSE}});
     }
 }
 

@@ -87,10 +87,7 @@ NacrePass passOf(const Pass& pass, VkExtent2D area, bool perMaterial) {
     result.writes = bindingBits(pass.writes);
     result.perMaterial = perMaterial;
     result.repeats = repeatsOf(pass, area);
-    result.hasSeparateMaterials = pass.hasSeparateMaterials;
-    result.hasSeveralShadowMaps = pass.hasSeveralShadowMaps;
-    result.hasAlbedoOrStrength = pass.hasAlbedoOrStrength;
-    result.hasGeneralLights = pass.hasGeneralLights;
+    result.constants = pass.constants;
     if (pass.isIndirect()) {
         result.indirectBinding = bindingIntermediates + pass.indirect;
         result.indirectOffset = pass.indirectOffset;
@@ -185,10 +182,6 @@ uint32_t nacreGetLightElementCount(const NacreTransmitInfo* info) {
     return info && (info->lights || info->lightCount == 0) ? lightElementCount(*info) : 0;
 }
 
-VkBool32 nacreNeedsGeneralLights(const NacreTransmitInfo* info) {
-    return info && (info->lights || info->lightCount == 0) && needGeneralLights(*info) ? VK_TRUE : VK_FALSE;
-}
-
 NacreResult nacreFillLights(const NacreTransmitInfo* info, const NacreMessages* messages, size_t size, void* data) {
     return guarded(messages, [&] {
         checkGiven(info, "NacreTransmitInfo");
@@ -198,4 +191,18 @@ NacreResult nacreFillLights(const NacreTransmitInfo* info, const NacreMessages* 
             fillLights(*info, static_cast<std::byte*>(data));
         }
     });
+}
+
+uint32_t nacreGetScatterConstants(uint32_t images, uint32_t materialCount, const NacreMaterial* materials) {
+    std::uint32_t common = ~0u;
+    bool havePartialStrength = false;
+    for (const NacreMaterial& material : std::span(materials, materials ? materialCount : 0)) {
+        common &= material.exchangeGroups;
+        havePartialStrength = havePartialStrength || material.strength < 1;
+    }
+    return scatterVariant(images, common == 0, havePartialStrength);
+}
+
+uint32_t nacreGetTransmitConstants(const NacreTransmitInfo* info) {
+    return info && (info->lights || info->lightCount == 0) ? variantOf(*info) : 0;
 }

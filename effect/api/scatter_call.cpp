@@ -39,13 +39,6 @@ ImageSet checkImages(const Context& context, const NacreScatterInfo& info, const
     return given;
 }
 
-/// What the call asks of its passes.
-Variant variantOf(ImageSet given, const MaterialTable::Summary& materials) {
-    constexpr ImageSet asking = 1u << NACRE_IMAGE_ALBEDO | 1u << NACRE_IMAGE_STRENGTH;
-    return (materials.haveSeparate ? separateMaterials : 0) |
-           ((given & asking) != 0 || materials.havePartialStrength ? albedoOrStrength : 0);
-}
-
 void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatterInfo& info) {
     constexpr const char* name = "NacreScatterInfo";
     const std::size_t asked = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
@@ -76,7 +69,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     ++context.frames[info.frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, call.set, area.extent, info.timestamps,
                   techniques[technique]->uses() | idsIntermediate(context), materials.slotCount,
-                  variantOf(given, materials), baked});
+                  scatterVariant(given, materials.haveSeparate, materials.havePartialStrength), baked});
 }
 
 } // namespace

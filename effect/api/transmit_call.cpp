@@ -85,8 +85,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.write(context.device);
     ++context.frames[info.frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, call.set, area.extent, info.timestamps,
-                  (maps.empty() ? transmitTechnique.uses() : 0) | idsIntermediate(context), 0,
-                  (maps.size() > 1 ? severalShadowMaps : 0) | (needGeneralLights(info) ? generalLights : 0)});
+                  (maps.empty() ? transmitTechnique.uses() : 0) | idsIntermediate(context), 0, variantOf(info)});
 }
 
 } // namespace

@@ -296,9 +296,10 @@ std::uint32_t lightElementCount(const NacreTransmitInfo& info) {
     return count;
 }
 
-bool needGeneralLights(const NacreTransmitInfo& info) {
+Variant variantOf(const NacreTransmitInfo& info) {
     const std::span lights(info.lights, info.lightCount);
-    return std::any_of(lights.begin(), lights.end(), isGeneral);
+    return (info.shadowMapCount > 1 ? severalShadowMaps : 0) |
+           (std::any_of(lights.begin(), lights.end(), isGeneral) ? generalLights : 0);
 }
 
 void fillLights(const NacreTransmitInfo& info, std::byte* to) {

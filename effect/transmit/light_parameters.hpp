@@ -2,7 +2,7 @@
 // value.
 #pragma once
 
-#include "nacre/nacre.h"
+#include "technique.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace nacre::effect {
 void checkLights(const NacreTransmitInfo& info);
 /// How many LightParameters they take: one a light, then one a cascade.
 std::uint32_t lightElementCount(const NacreTransmitInfo& info);
-/// Whether the pass has to have the constant generalLights.
-bool needGeneralLights(const NacreTransmitInfo& info);
+/// The constants that the call's pass has to have.
+Variant variantOf(const NacreTransmitInfo& info);
 /// Fills lightElementCount LightParameters of lights that were checked.
 void fillLights(const NacreTransmitInfo& info, std::byte* to);
 

@@ -65,8 +65,7 @@ constexpr Pass passes[] = {
      .spirv = transmit_spv,
      .reads = bit(intermediateNoShadowMap),
      .grid = tiles<8, 16>,
-     .hasSeveralShadowMaps = true,
-     .hasGeneralLights = true},
+     .constants = severalShadowMaps | generalLights},
 };
 
 } // namespace

@@ -97,7 +97,7 @@ struct PipelineOrder {
 void createOrdered(const Context& context, VkPipelineCache cache, const PipelineOrder& order) {
     // An entry for a constant that a pass lacks changes nothing; the thesis's passes have others under the first ids.
     const PassConstants constants(context, order.variant);
-    const std::uint32_t first = variantsOf(order.pass) != 0 ? 0 : PassConstants::ofVariants;
+    const std::uint32_t first = order.pass.constants != 0 ? 0 : PassConstants::ofVariants;
     const VkSpecializationInfo info{PassConstants::count - first, constants.entries.data() + first,
                                     sizeof(constants.values), constants.values.data()};
     *order.pipeline = createPipeline(context.device, order.layout, order.pass, cache, &info);
@@ -107,7 +107,7 @@ void createOrdered(const Context& context, VkPipelineCache cache, const Pipeline
 void orderVariants(std::vector<PipelineOrder>& orders, const Pass& pass, VkPipelineLayout layout,
                    PassPipelines& pipelines) {
     for (Variant variant = 0; variant < variantCount; ++variant) {
-        if ((variant & ~variantsOf(pass)) == 0) {
+        if ((variant & ~pass.constants) == 0) {
             orders.push_back({pass, layout, variant, &pipelines[variant]});
         }
     }

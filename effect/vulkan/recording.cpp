@@ -204,7 +204,7 @@ void recordPasses(const PassRecording& recording) {
             if (pass.repeats) {
                 push(repeat);
             }
-            record(pass, pipelines[i][recording.variant & variantsOf(pass)]);
+            record(pass, pipelines[i][recording.variant & pass.constants]);
         }
         timestamp(recording, i + 1);
     }

@@ -1,9 +1,9 @@
 // A deferred renderer as engines have them, with subsurface scattering: rasterised bodies on a table, lit from behind
 // by a sun with four shadow cascades of hardware depth; a G-buffer with material ids in the stencil and octahedral
-// normals in view space; a reversed depth buffer; several frames in flight; a size that changes. What is Nacre's stands
-// in snippets.
+// normals in view space; a reversed depth buffer; one or four samples a pixel; several frames in flight; a size that
+// changes. What is Nacre's stands in snippets.
 //
-// Usage: deferred [picture.png [frames in flight]]
+// Usage: deferred [picture.png [frames in flight [samples a pixel [times as wide and high]]]]
 #include "raster_device.hpp"
 
 // [snippet: raster-headers]
@@ -37,6 +37,9 @@ constexpr std::uint32_t screenVert[] =
     ;
 constexpr std::uint32_t lightingFrag[] =
 #include "lighting.frag.inc"
+    ;
+constexpr std::uint32_t resolveFrag[] =
+#include "resolve.frag.inc"
     ;
 constexpr std::uint32_t addFrag[] =
 #include "add.frag.inc"
@@ -147,13 +150,21 @@ nacre::Context createContext(const Device& device, VkExtent2D extent, const VkPh
 }
 // [end]
 
+struct GBuffer {
+    Image albedo, normal, depth;
+};
+
 struct Images {
-    Image shadowMap, albedo, normal, depth, irradiance, picture;
+    GBuffer drawn;    // one or several samples a pixel
+    GBuffer resolved; // of several samples: one
+    Image ids;        // of several samples, in place of the stencil
+    Image shadowMap, irradiance, picture;
     Image scattered, transmitted, composed; // the effect's
 
     template <typename Each> void forEach(Each&& each) {
         for (Image* image :
-             {&shadowMap, &albedo, &normal, &depth, &irradiance, &picture, &scattered, &transmitted, &composed}) {
+             {&drawn.albedo, &drawn.normal, &drawn.depth, &resolved.albedo, &resolved.normal, &resolved.depth, &ids,
+              &shadowMap, &irradiance, &picture, &scattered, &transmitted, &composed}) {
             each(*image);
         }
     }
@@ -172,14 +183,20 @@ NacreImage effectImage(const Image& image) {
 }
 // [end]
 
-Images createImages(Device& device, VkExtent2D extent) {
+Images createImages(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples) {
     constexpr VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     constexpr VkImageUsageFlags depth = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     Images images;
     images.shadowMap = device.createImage(VK_FORMAT_D32_SFLOAT, {mapSize, mapSize}, depth, cascadeCount);
-    images.albedo = device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color);
-    images.normal = device.createImage(VK_FORMAT_R16G16_SFLOAT, extent, color);
-    images.depth = device.createImage(VK_FORMAT_D32_SFLOAT_S8_UINT, extent, depth);
+    images.drawn = {device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color, 0, samples),
+                    device.createImage(VK_FORMAT_R16G16_SFLOAT, extent, color, 0, samples),
+                    device.createImage(VK_FORMAT_D32_SFLOAT_S8_UINT, extent, depth, 0, samples)};
+    if (samples != VK_SAMPLE_COUNT_1_BIT) {
+        images.resolved = {device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color),
+                           device.createImage(VK_FORMAT_R16G16_SFLOAT, extent, color),
+                           device.createImage(VK_FORMAT_R32_SFLOAT, extent, color)};
+        images.ids = device.createImage(VK_FORMAT_R8_UINT, extent, color);
+    }
     images.irradiance = device.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent, color);
     images.picture = device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     createEffectImages(device, extent, images);
@@ -190,7 +207,20 @@ struct Pipelines {
     VkPipeline shadow, surface, lighting, add;
 };
 
-Pipelines createPipelines(Device& device) {
+VkPipeline createLighting(Device& device, VkSampleCountFlagBits samples) {
+    if (samples == VK_SAMPLE_COUNT_1_BIT) {
+        return device.createPipeline({.vertex = screenVert,
+                                      .fragment = lightingFrag,
+                                      .colors = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB}});
+    }
+    return device.createPipeline(
+        {.vertex = screenVert,
+         .fragment = resolveFrag,
+         .colors = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB,
+                    VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8_UINT}});
+}
+
+Pipelines createPipelines(Device& device, VkSampleCountFlagBits samples) {
     return {device.createPipeline({.vertex = bodyVert,
                                    .fragment = {},
                                    .colors = {},
@@ -201,10 +231,9 @@ Pipelines createPipelines(Device& device) {
                                    .colors = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16_SFLOAT},
                                    .depth = VK_FORMAT_D32_SFLOAT_S8_UINT,
                                    .compare = VK_COMPARE_OP_GREATER,
-                                   .writesStencil = true}),
-            device.createPipeline({.vertex = screenVert,
-                                   .fragment = lightingFrag,
-                                   .colors = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB}}),
+                                   .writesStencil = true,
+                                   .samples = samples}),
+            createLighting(device, samples),
             device.createPipeline(
                 {.vertex = screenVert, .fragment = addFrag, .colors = {VK_FORMAT_R8G8B8A8_SRGB}, .adds = true})};
 }
@@ -213,20 +242,19 @@ Pipelines createPipelines(Device& device) {
 /// what the one before did with them.
 class Renderer {
 public:
-    explicit Renderer(std::uint32_t framesInFlight)
+    Renderer(std::uint32_t framesInFlight, VkSampleCountFlagBits samples, VkExtent2D extent)
         // [snippet: raster-device]
         : requirements_(requirements()),
           device_(requirements_.features, requirements_.features12)
     // [end]
     {
         device_.createFrames(framesInFlight, sizeof(FrameBlock));
-        pipelines_ = createPipelines(device_);
-        images_ = createImages(device_, sizes[0]);
-        extent_ = sizes[0];
+        samples_ = samples;
+        pipelines_ = createPipelines(device_, samples);
+        images_ = createImages(device_, extent, samples);
+        extent_ = extent;
         context_ = createContext(device_, extent_, requirements_.features);
         bindImages();
-        pixels_ =
-            device_.createBuffer(VkDeviceSize{4} * sizes[1].width * sizes[1].height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     }
     ~Renderer() {
         vkDeviceWaitIdle(device_.device);
@@ -238,7 +266,7 @@ public:
     void resize(VkExtent2D extent) {
         vkDeviceWaitIdle(device_.device);
         images_.forEach([&](Image& image) { device_.destroy(image); });
-        images_ = createImages(device_, extent);
+        images_ = createImages(device_, extent, samples_);
         extent_ = extent;
         // [snippet: raster-resize]
         check(context_.resize(extent)); // the device is idle
@@ -271,6 +299,7 @@ public:
         ::check(vkQueueSubmit(device_.queue, 1, &submit, frame.finished), "vkQueueSubmit");
     }
 
+    /// The last picture.
     void save(const char* path) {
         vkDeviceWaitIdle(device_.device);
         const auto width = static_cast<int>(extent_.width);
@@ -289,12 +318,19 @@ private:
     }
     // [end]
 
+    bool isMultisampled() const { return samples_ != VK_SAMPLE_COUNT_1_BIT; }
+    /// What has one sample a pixel.
+    const GBuffer& surfaces() const { return isMultisampled() ? images_.resolved : images_.drawn; }
+
+    /// What follows from the images: the buffer that the picture is copied to, and the sets.
     void bindImages() {
+        pixels_ =
+            device_.createBuffer(VkDeviceSize{4} * extent_.width * extent_.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         const VkDescriptorImageInfo bound[] = {
-            {device_.sampler, images_.depth.view, depthRead.layout},
-            {device_.sampler, images_.depth.stencilView, depthRead.layout},
-            {device_.sampler, images_.normal.view, colorRead.layout},
-            {device_.sampler, images_.albedo.view, colorRead.layout},
+            {device_.sampler, images_.drawn.depth.view, depthRead.layout},
+            {device_.sampler, images_.drawn.depth.stencilView, depthRead.layout},
+            {device_.sampler, images_.drawn.normal.view, colorRead.layout},
+            {device_.sampler, images_.drawn.albedo.view, colorRead.layout},
             {device_.sampler, images_.shadowMap.view, depthRead.layout},
             {device_.sampler, images_.composed.view, generalRead.layout},
         };
@@ -351,13 +387,14 @@ private:
     }
 
     void drawSurfaces() {
-        use(commands_, images_.albedo, colorTarget, true);
-        use(commands_, images_.normal, colorTarget, true);
-        use(commands_, images_.depth, depthTarget, true);
+        GBuffer& drawn = images_.drawn;
+        use(commands_, drawn.albedo, colorTarget, true);
+        use(commands_, drawn.normal, colorTarget, true);
+        use(commands_, drawn.depth, depthTarget, true);
         const VkRenderingAttachmentInfo colors[] = {
-            target(images_.albedo.view, colorTarget, VK_ATTACHMENT_LOAD_OP_CLEAR),
-            target(images_.normal.view, colorTarget, VK_ATTACHMENT_LOAD_OP_CLEAR)};
-        const VkRenderingAttachmentInfo depth = target(images_.depth.view, depthTarget, VK_ATTACHMENT_LOAD_OP_CLEAR);
+            target(drawn.albedo.view, colorTarget, VK_ATTACHMENT_LOAD_OP_CLEAR),
+            target(drawn.normal.view, colorTarget, VK_ATTACHMENT_LOAD_OP_CLEAR)};
+        const VkRenderingAttachmentInfo depth = target(drawn.depth.view, depthTarget, VK_ATTACHMENT_LOAD_OP_CLEAR);
         beginRendering(extent_, colors, &depth, true);
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.surface);
         for (std::uint32_t body = 0; body < bodyCount; ++body) {
@@ -366,19 +403,29 @@ private:
             drawBody(-1, body);
         }
         vkCmdEndRendering(commands_);
-        use(commands_, images_.albedo, colorRead);
-        use(commands_, images_.normal, colorRead);
-        use(commands_, images_.depth, depthRead);
+        use(commands_, drawn.albedo, colorRead);
+        use(commands_, drawn.normal, colorRead);
+        use(commands_, drawn.depth, depthRead);
     }
 
+    /// Lights all samples; of several it makes one.
     void drawLighting() {
-        use(commands_, images_.irradiance, colorTarget, true);
-        use(commands_, images_.picture, colorTarget, true);
-        const VkRenderingAttachmentInfo colors[] = {
-            target(images_.irradiance.view, colorTarget, VK_ATTACHMENT_LOAD_OP_DONT_CARE),
-            target(images_.picture.view, colorTarget, VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
+        std::vector<Image*> images{&images_.irradiance, &images_.picture};
+        if (isMultisampled()) {
+            GBuffer& resolved = images_.resolved;
+            images.insert(images.end(), {&resolved.albedo, &resolved.normal, &resolved.depth, &images_.ids});
+        }
+        std::vector<VkRenderingAttachmentInfo> colors;
+        for (Image* image : images) {
+            use(commands_, *image, colorTarget, true);
+            colors.push_back(target(image->view, colorTarget, VK_ATTACHMENT_LOAD_OP_DONT_CARE));
+        }
         drawScreen(pipelines_.lighting, colors);
-        use(commands_, images_.irradiance, colorRead);
+        for (Image* image : images) {
+            if (image != &images_.picture) {
+                use(commands_, *image, colorRead);
+            }
+        }
     }
 
     void drawScreen(VkPipeline pipeline, std::span<const VkRenderingAttachmentInfo> colors) {
@@ -422,9 +469,11 @@ private:
         scatter.view.depthEncoding = NACRE_DEPTH_HARDWARE;
         scatter.frame = index;
         scatter.irradiance = effectImage(images_.irradiance);
-        scatter.depth = effectImage(images_.depth);
-        scatter.materialId = scatter.depth;
-        scatter.materialId.view = images_.depth.stencilView;
+        scatter.depth = effectImage(surfaces().depth);
+        scatter.materialId = effectImage(isMultisampled() ? images_.ids : images_.drawn.depth);
+        if (!isMultisampled()) {
+            scatter.materialId.view = images_.drawn.depth.stencilView;
+        }
         scatter.scattered = effectImage(images_.scattered);
         check(context_.cmdScatter(commands_, scatter));
 
@@ -436,7 +485,7 @@ private:
         transmit.frame = index;
         transmit.depth = scatter.depth;
         transmit.materialId = scatter.materialId;
-        transmit.normal = effectImage(images_.normal);
+        transmit.normal = effectImage(surfaces().normal);
         transmit.lightCount = 1;
         transmit.lights = &light;
         transmit.shadowMapCount = 1;
@@ -451,7 +500,7 @@ private:
         compose.materialId = scatter.materialId;
         compose.scattered = effectImage(images_.scattered);
         compose.transmitted = effectImage(images_.transmitted);
-        compose.albedo = effectImage(images_.albedo);
+        compose.albedo = effectImage(surfaces().albedo);
         compose.composed = effectImage(images_.composed);
         check(context_.cmdCompose(commands_, compose));
         use(commands_, images_.composed, generalRead);
@@ -485,6 +534,7 @@ private:
     nacre::Context context_;
     Pipelines pipelines_{};
     Images images_;
+    VkSampleCountFlagBits samples_ = VK_SAMPLE_COUNT_1_BIT;
     Buffer pixels_;
     VkExtent2D extent_{};
     FrameBlock block_{};
@@ -495,14 +545,18 @@ private:
 
 int main(int argc, char** argv) {
     try {
-        const int framesInFlight = argc > 2 ? std::atoi(argv[2]) : 2;
-        if (framesInFlight < 1 || framesInFlight > 8) {
-            throw std::runtime_error("frames in flight must be in [1, 8]");
+        const auto number = [&](int index, std::uint32_t otherwise) {
+            return argc > index ? static_cast<std::uint32_t>(std::atoi(argv[index])) : otherwise;
+        };
+        const std::uint32_t framesInFlight = number(2, 2), samples = number(3, 1), times = number(4, 1);
+        if (framesInFlight < 1 || framesInFlight > 8 || (samples != 1 && samples != 4) || times < 1 || times > 4) {
+            throw std::runtime_error("frames in flight must be in [1, 8], samples 1 or 4, times in [1, 4]");
         }
-        Renderer renderer(static_cast<std::uint32_t>(framesInFlight));
+        const auto extent = [times](VkExtent2D size) { return VkExtent2D{size.width * times, size.height * times}; };
+        Renderer renderer(framesInFlight, static_cast<VkSampleCountFlagBits>(samples), extent(sizes[0]));
         for (int frame = 0; frame < frameCount; ++frame) {
             if (frame == frameCount / 2) {
-                renderer.resize(sizes[1]);
+                renderer.resize(extent(sizes[1]));
             }
             renderer.draw(frame);
         }

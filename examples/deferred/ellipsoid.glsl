@@ -14,6 +14,8 @@ layout(binding = 0, std140) uniform Frame {
     Body bodies[8];
 };
 
+const float surroundings = 0.15; // irradiance from all around
+
 const int rings = 48;
 const int segments = 64;
 

@@ -109,7 +109,8 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, VkMemo
     return memory;
 }
 
-Image Device::createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage, std::uint32_t layers) {
+Image Device::createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage, std::uint32_t layers,
+                          VkSampleCountFlagBits samples) {
     Image result;
     result.format = format;
     result.extent = extent;
@@ -121,7 +122,7 @@ Image Device::createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags 
     info.extent = {extent.width, extent.height, 1};
     info.mipLevels = 1;
     info.arrayLayers = layers == 0 ? 1 : layers;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.samples = samples;
     info.usage = usage;
     check(vkCreateImage(device, &info, nullptr, &result.image), "vkCreateImage");
     VkMemoryRequirements requirements;
@@ -209,7 +210,7 @@ VkPipeline Device::createPipeline(const PipelineInfo& from) {
     raster.cullMode = VK_CULL_MODE_NONE; // the shadow maps keep the faces that see the light
     raster.lineWidth = 1;
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    samples.rasterizationSamples = from.samples;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = depth.depthWriteEnable = from.depth != VK_FORMAT_UNDEFINED;
     depth.depthCompareOp = from.compare;

@@ -64,6 +64,7 @@ struct PipelineInfo {
     VkCompareOp compare = VK_COMPARE_OP_ALWAYS;
     bool writesStencil = false; ///< the dynamic reference
     bool adds = false;          ///< blends by adding
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
 struct Device {
@@ -71,7 +72,8 @@ struct Device {
     ~Device();
     Device(const Device&) = delete;
 
-    Image createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage, std::uint32_t layers = 0);
+    Image createImage(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage, std::uint32_t layers = 0,
+                      VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
     void destroy(Image& image);
     Buffer createBuffer(VkDeviceSize size, VkBufferUsageFlags usage);
     VkPipeline createPipeline(const PipelineInfo& info);

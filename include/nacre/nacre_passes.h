@@ -8,14 +8,15 @@
  * HOW
  *  set up    nacreGetBindings lists descriptor set 0 of a technique, nacreGetPasses its compute passes: SPIR-V, or the name
  *            under which the GLSL, HLSL and MSL lie. The pipeline layout has that set and, for passes with perMaterial or
- *            several repeats, a push constant of 4 bytes at offset 0. A pass with hasSeparateMaterials, hasSeveralShadowMaps,
- *            hasAlbedoOrStrength or hasGeneralLights takes two pipelines; with two of these, four.
+ *            several repeats, a push constant of 4 bytes at offset 0. A pass has a pipeline for every combination of its
+ *            NacrePass::constants that its calls ask for.
  *            Every pass may have the constants 1000, a VkBool32, and 1001, a uint32_t, by default 0: that there are no ids, and
  *            how normals are encoded (interface/encoded_inputs.glsl).
  *  materials The buffer "materials" starts with 65536 uint32_t: the slot of every material id, 0 where none is set. Slots
  *            count from 1. nacreFillMaterial fills a slot's element there, nacreFillTable its element of "tables".
  *            A buffer of n materials is head + (n + 1) * stride bytes. Change a material only when no frame reads it.
- *  a call    nacreFillScatterParameters, or nacreFillTransmitParameters and nacreFillLights; then the passes in order.
+ *  a call    nacreFillScatterParameters, or nacreFillTransmitParameters and nacreFillLights; then the passes in order, with
+ *            the pipelines of nacreGetScatterConstants or nacreGetTransmitConstants.
  *            Those with perMaterial come last and run together, once for every slot, which is pushed.
  *  barriers  Between two passes where the later one reads or writes what an earlier one wrote, or writes what it read:
  *            from compute shader writes to compute shader reads and writes and to indirect arguments; these only before
@@ -73,17 +74,8 @@ typedef struct NacrePass {
     VkBool32 perMaterial;        /**< run for every material's slot */
     uint32_t repeats;            /**< dispatches of it for this area, a barrier before each but the first; their number,
                                       from 0, is pushed where there are several. At least 1 */
-    VkBool32 hasSeparateMaterials; /**< has the specialization constant 0, a VkBool32, by default VK_FALSE: VK_TRUE in the
-                                      pipeline for frames where some materials that are set share no exchange group with
-                                      some others; the one without is quicker */
-    VkBool32 hasSeveralShadowMaps; /**< the same for calls with more than one shadow map: in the pipeline without, which is
-                                      quicker, all lights with a shadow map have the first */
-    VkBool32 hasAlbedoOrStrength; /**< has the specialization constant 1, a VkBool32, by default VK_TRUE: VK_FALSE in the
-                                      pipeline for calls with neither an albedo nor a strength image, while every
-                                      material that is set has strength 1 */
-    VkBool32 hasGeneralLights;   /**< has the specialization constant 1, a VkBool32, by default VK_FALSE: VK_TRUE in the
-                                      pipeline for calls of which nacreNeedsGeneralLights is true; the one without is
-                                      quicker */
+    uint32_t constants;          /**< the specialization constants that it has, VkBool32s: bits 1u << constant_id. A
+                                      pipeline without one of them does less, and is quicker */
     VkExtent3D groups;           /**< workgroups to dispatch; 0 where indirectBinding is not */
     uint32_t indirectBinding;    /**< the intermediate that holds the VkDispatchIndirectCommand; 0 = none does */
     VkDeviceSize indirectOffset; /**< bytes, where in it */
@@ -122,12 +114,20 @@ NACRE_API NacreResult nacreFillTransmitParameters(const NacreTransmitInfo* info,
                                                   const NacreMessages* messages, size_t size, void* data);
 /** Elements of "lights" that a call takes: one a light and one a cascade. 0 where info is null. */
 NACRE_API uint32_t nacreGetLightElementCount(const NacreTransmitInfo* info);
-/** Whether a light of the call has hardware depth, culled front faces, a rectangle, cascades or an attenuation. */
-NACRE_API VkBool32 nacreNeedsGeneralLights(const NacreTransmitInfo* info);
 /** All elements of "lights" (LightParameters), so size is at least nacreGetLightElementCount times the stride. Of shadowMaps
  *  only their extents and formats are looked at. */
 NACRE_API NacreResult nacreFillLights(const NacreTransmitInfo* info, const NacreMessages* messages, size_t size,
                                       void* data);
+
+/* The specialization constants that a call's pipelines have as VK_TRUE, bits 1u << constant_id: of a pass, those that are
+ * among its NacrePass::constants, too. Its others are VK_FALSE. */
+
+/** 0: some materials share no exchange group with some others. 1: there is an albedo or a strength image, or a material of
+ *  strength below 1. images: as for nacreFillScatterParameters; materials: all that are set, of which the layers are not read. */
+NACRE_API uint32_t nacreGetScatterConstants(uint32_t images, uint32_t materialCount, const NacreMaterial* materials);
+/** 0: there is more than one shadow map; without, all lights with a shadow map have the first. 1: a light has hardware depth,
+ *  culled front faces, a rectangle, cascades or an attenuation. 0 where info is null. */
+NACRE_API uint32_t nacreGetTransmitConstants(const NacreTransmitInfo* info);
 
 #ifdef __cplusplus
 }

@@ -8,9 +8,9 @@ namespace nacre::tests {
 
 /// What is rendered, whatever part of an image it is. Neither side of either extent is a power of two: a software
 /// device compiles passes anew for images where one is.
-inline constexpr VkExtent2D matrixArea{36, 22};
+inline constexpr VkExtent2D matrixArea{28, 18};
 /// Images that are larger than it.
-inline constexpr VkExtent2D matrixLarger{44, 28};
+inline constexpr VkExtent2D matrixLarger{36, 24};
 
 struct MatrixFormats {
     VkFormat light = VK_FORMAT_R32G32B32A32_SFLOAT; ///< irradiance and output
@@ -106,6 +106,7 @@ private:
     std::unique_ptr<Effect> makeEffect(NacreTechnique technique);
     std::vector<std::vector<Float4>> scatter(Effect& effect, MatrixImages& images, NacreTechnique technique);
     std::vector<std::vector<Float4>> plain(Effect& effect, NacreTechnique technique);
+    const std::vector<std::vector<Float4>>& reference();
 };
 
 } // namespace nacre::tests

@@ -27,11 +27,6 @@ std::uint32_t bitOf(NacreImageSlot slot, const NacreImage& image) {
     return image.view != VK_NULL_HANDLE ? 1u << slot : 0u;
 }
 
-// The specialization constants that a pass asks with, a bit each.
-std::uint32_t constantsOf(const NacrePass& pass) {
-    return (pass.hasSeparateMaterials || pass.hasSeveralShadowMaps ? 1u : 0u) | (pass.hasAlbedoOrStrength ? 2u : 0u);
-}
-
 } // namespace
 
 PartsEngine::PartsEngine(Gpu& gpu, NacreTechnique technique, VkExtent2D maxExtent, std::uint32_t materialCount,
@@ -108,8 +103,8 @@ void PartsEngine::createPipelines() {
         check(vkCreateShaderModule(gpu_.device, &moduleInfo, nullptr, &module));
         std::array<VkPipeline, 4>& pipelines = pipelines_.emplace_back();
         for (std::uint32_t variant = 0; variant < pipelines.size(); ++variant) {
-            if ((variant & ~constantsOf(pass)) == 0) {
-                pipelines[variant] = createPipeline(module, constantsOf(pass), variant);
+            if ((variant & ~pass.constants) == 0) {
+                pipelines[variant] = createPipeline(module, pass.constants, variant);
             }
         }
         vkDestroyShaderModule(gpu_.device, module, nullptr);
@@ -187,20 +182,15 @@ void PartsEngine::setMaterials(std::span<const NacreMaterial> materials) {
     const Buffer& blocks = buffers_.at("materials");
     const Buffer& tables = buffers_.at("tables");
     auto* slots = reinterpret_cast<std::uint32_t*>(blocks.mapped);
-    std::uint32_t common = ~0u;
-    havePartialStrength_ = false;
     // [snippet: parts-materials]
     for (std::uint32_t i = 0; i < materials.size(); ++i) {
         const std::uint32_t slot = i + 1;
         slots[slot] = slot; // here the material's id, too
         check(nacreFillMaterial(&materials[i], &messages, blocks.binding.stride, blocks.element(slot)));
         check(nacreFillTable(technique_, &materials[i], &messages, tables.binding.stride, tables.element(slot)));
-        common &= materials[i].exchangeGroups;
-        havePartialStrength_ = havePartialStrength_ || materials[i].strength < 1;
     }
     // [end]
-    slotCount_ = static_cast<std::uint32_t>(materials.size());
-    areSeparate_ = common == 0;
+    materials_.assign(materials.begin(), materials.end());
 }
 
 void PartsEngine::bind(const NacreBinding& binding, std::span<const NacreImage> images, const NacreImage& fallback) {
@@ -243,12 +233,11 @@ void PartsEngine::scatter(VkCommandBuffer commandBuffer, const NacreScatterInfo&
     const std::uint32_t optional = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
                                    bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
     check(nacreFillScatterParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
+    const std::uint32_t constants =
+        nacreGetScatterConstants(optional, static_cast<std::uint32_t>(materials_.size()), materials_.data());
     // [end]
     const VkExtent2D area = info.view.renderArea.extent;
-    const bool albedoOrStrength =
-        info.albedo.view != VK_NULL_HANDLE || info.strength.view != VK_NULL_HANDLE || havePartialStrength_;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent,
-                 (areSeparate_ ? 1u : 0u) | (albedoOrStrength ? 2u : 0u));
+    recordPasses(commandBuffer, area.width != 0 ? area : info.irradiance.extent, constants);
 }
 
 void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInfo& info) {
@@ -276,16 +265,16 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
     const Buffer& lights = buffers_.at("lights");
     check(nacreFillLights(&info, &messages, info.lightCount * lights.binding.stride, lights.mapped));
     const VkExtent2D area = info.view.renderArea.extent;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, info.shadowMapCount > 1 ? 1 : 0);
+    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, nacreGetTransmitConstants(&info));
 }
 
-void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t variant) {
+void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t constants) {
     std::uint32_t count = static_cast<std::uint32_t>(pipelines_.size());
     std::vector<NacrePass> passes(count);
     check(nacreGetPasses(technique_, area, &count, passes.data()));
     std::vector<VkPipeline> pipelines;
     for (std::uint32_t i = 0; i < count; ++i) {
-        pipelines.push_back(pipelines_[i][variant & constantsOf(passes[i])]);
+        pipelines.push_back(pipelines_[i][constants & passes[i].constants]);
     }
     vkCmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
     const auto barrier = [&] {
@@ -333,7 +322,7 @@ void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, s
             dispatch(first);
         }
     }
-    for (std::uint32_t slot = 1; slot <= slotCount_ && first < count; ++slot) {
+    for (std::uint32_t slot = 1; slot <= materials_.size() && first < count; ++slot) {
         push(slot);
         for (std::size_t i = first; i < count; ++i) {
             dispatch(i);

@@ -38,18 +38,16 @@ private:
     VkPipeline createPipeline(VkShaderModule module, std::uint32_t has, std::uint32_t variant);
     void createSet();
     void bind(const NacreBinding& binding, std::span<const NacreImage> images, const NacreImage& fallback);
-    void recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t variant);
+    void recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t constants);
 
     Gpu& gpu_;
     NacreTechnique technique_;
     VkExtent2D maxExtent_;
-    std::uint32_t slotCount_ = 0;      ///< materials that are set
-    bool areSeparate_ = false;         ///< no exchange group holds them all
-    bool havePartialStrength_ = false; ///< some have a strength below 1
+    std::vector<NacreMaterial> materials_;
     std::vector<NacreBinding> bindings_;
     std::map<std::string, Buffer> buffers_;
     std::map<std::uint32_t, GpuImage> images_;         ///< intermediates by binding
-    std::vector<std::array<VkPipeline, 4>> pipelines_; ///< of the passes, by their constants' values, a bit each
+    std::vector<std::array<VkPipeline, 4>> pipelines_; ///< of the passes, by their constants, a bit each
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
