@@ -261,7 +261,7 @@ void Frame::Implementation::record(const vk::raii::CommandBuffer& commandBuffer,
 void Frame::Implementation::recordEffectOnce(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
                                              const View& view) {
     subsurface.record(commandBuffer,
-                      {frame, view, placement.placed().lights, picture->gbuffer, picture->lighting.irradiance(),
+                      {view, placement.placed().lights, picture->gbuffer, picture->lighting.irradiance(),
                        shadowMaps.image(), picture->subsurface, timers[frame]},
                       settings);
 }

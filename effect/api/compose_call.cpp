@@ -41,14 +41,15 @@ void compose(Context& context, VkCommandBuffer commandBuffer, const NacreCompose
     const NacreView view{.renderArea = info.renderArea};
     const VkRect2D area = renderArea(view, info.scattered.extent, context.maxExtent, name);
     const ScatterParameters parameters = composeParameters(info, checkImages(context, info, area), area);
-    CallResources& call = nextCall(context, info.frame, &Frame::compose, name);
+    const std::uint32_t frame = begunFrame(context, name);
+    CallResources& call = nextCall(context, frame, &Frame::compose, name);
 
     // From here on nothing fails.
     std::memcpy(call.mappedParameters, &parameters, sizeof(parameters));
     DescriptorWriter descriptors(call.set);
     descriptors.uniform(bindingParameters, call.parameters);
-    descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
-    descriptors.storage(bindingTables, context.materials->parameters(info.frame)); // there are none
+    descriptors.storage(bindingMaterials, context.materials->parameters(frame));
+    descriptors.storage(bindingTables, context.materials->parameters(frame)); // there are none
     descriptors.sampled(bindingDepth, info.scattered, info.scattered);
     const NacreImage ids = idsOf(context, info.materialId);
     descriptors.sampled(bindingMaterialId, ids, ids);
@@ -59,7 +60,7 @@ void compose(Context& context, VkCommandBuffer commandBuffer, const NacreCompose
     descriptors.output(bindingScattered, info.composed);
     descriptors.intermediates(context, context.scatter.intermediates);
     descriptors.write(context.device);
-    ++context.frames[info.frame].compose.used;
+    ++context.frames[frame].compose.used;
     recordPasses({context, context.scatter, composeIndex, commandBuffer, call.set, area.extent, info.timestamps,
                   idsIntermediate(context)});
 }

@@ -44,8 +44,9 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     const std::size_t asked = scatterTechniqueIndex(context, info.technique, "NacreScatterInfo::technique");
     const VkRect2D area = renderArea(info.view, info.irradiance.extent, context.maxExtent, name);
     const ImageSet given = checkImages(context, info, area);
-    CallResources& call = nextCall(context, info.frame, &Frame::scatter, name);
-    const MaterialTable::Summary& materials = context.materials->summary(info.frame);
+    const std::uint32_t frame = begunFrame(context, name);
+    CallResources& call = nextCall(context, frame, &Frame::scatter, name);
+    const MaterialTable::Summary& materials = context.materials->summary(frame);
     const std::size_t technique = chosenTechniqueIndex(context, asked, materials);
     const ScatterParameters parameters = scatterParameters(info, given, area, materials.havePreAndPost);
     const bool baked = takesBakedKernel(context, info);
@@ -54,8 +55,8 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     std::memcpy(call.mappedParameters, &parameters, sizeof(parameters));
     DescriptorWriter descriptors(call.set);
     descriptors.uniform(bindingParameters, call.parameters);
-    descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
-    descriptors.storage(bindingTables, context.materials->table(info.frame, technique));
+    descriptors.storage(bindingMaterials, context.materials->parameters(frame));
+    descriptors.storage(bindingTables, context.materials->table(frame, technique));
     descriptors.sampled(bindingDepth, info.depth, info.depth);
     const NacreImage ids = idsOf(context, info.materialId);
     descriptors.sampled(bindingMaterialId, ids, ids);
@@ -66,7 +67,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.output(bindingScattered, info.scattered);
     descriptors.intermediates(context, context.scatter.intermediates);
     descriptors.write(context.device);
-    ++context.frames[info.frame].scatter.used;
+    ++context.frames[frame].scatter.used;
     recordPasses({context, context.scatter, technique, commandBuffer, call.set, area.extent, info.timestamps,
                   techniques[technique]->uses() | idsIntermediate(context), materials.slotCount,
                   scatterVariant(given, materials.haveSeparate, materials.havePartialStrength), baked});

@@ -58,7 +58,8 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     const ImageSet given = checkImages(context, info, area);
     const TransmitParameters parameters = transmitParameters(info, given, area);
     checkLightsAndMaps(context, info);
-    CallResources& call = nextCall(context, info.frame, &Frame::transmit, "NacreTransmitInfo");
+    const std::uint32_t frame = begunFrame(context, "NacreTransmitInfo");
+    CallResources& call = nextCall(context, frame, &Frame::transmit, "NacreTransmitInfo");
 
     // From here on nothing fails.
     std::memcpy(call.mappedParameters, &parameters, sizeof(parameters));
@@ -68,8 +69,8 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
                            .layout = VK_IMAGE_LAYOUT_GENERAL};
     DescriptorWriter descriptors(call.set);
     descriptors.uniform(bindingParameters, call.parameters);
-    descriptors.storage(bindingMaterials, context.materials->parameters(info.frame));
-    descriptors.storage(bindingTables, context.materials->table(info.frame, transmitIndex));
+    descriptors.storage(bindingMaterials, context.materials->parameters(frame));
+    descriptors.storage(bindingTables, context.materials->table(frame, transmitIndex));
     descriptors.storage(bindingLights, call.lights);
     descriptors.sampled(bindingDepth, info.depth, info.depth);
     const NacreImage ids = idsOf(context, info.materialId);
@@ -83,7 +84,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
                        info.thicknessOut.view != VK_NULL_HANDLE ? info.thicknessOut : info.transmitted);
     descriptors.intermediates(context, context.transmit.intermediates);
     descriptors.write(context.device);
-    ++context.frames[info.frame].transmit.used;
+    ++context.frames[frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, call.set, area.extent, info.timestamps,
                   (maps.empty() ? transmitTechnique.uses() : 0) | idsIntermediate(context), 0, variantOf(info)});
 }

@@ -96,17 +96,17 @@ void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t call
     }
 }
 
+std::uint32_t begunFrame(const Context& context, const char* info) {
+    if (!context.frame) {
+        fail(NACRE_ERROR_INVALID_ARGUMENT, info, " belongs to no frame, nacreBeginFrame comes first");
+    }
+    return *context.frame;
+}
+
 CallResources& nextCall(Context& context, std::uint32_t frame, FrameCalls Frame::*kind, const char* info) {
-    if (frame >= context.frames.size()) {
-        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", the context has ", context.frames.size(),
-             " frames in flight");
-    }
-    if (frame != context.frame) {
-        fail(NACRE_ERROR_INVALID_ARGUMENT, info, "::frame is ", frame, ", not the one last given to nacreBeginFrame");
-    }
     FrameCalls& calls = context.frames[frame].*kind;
     if (calls.used == calls.calls.size()) {
-        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, "::frame is ", frame, ", which already has its ", calls.used,
+        fail(NACRE_ERROR_LIMIT_EXCEEDED, info, " is one too many: frame ", frame, " already has its ", calls.used,
              " records (NacreContextInfo::recordsPerFrame)");
     }
     return calls.calls[calls.used];

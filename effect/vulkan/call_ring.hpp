@@ -39,4 +39,7 @@ void createFrames(Context& context, std::uint32_t frameCount, std::uint32_t call
 /// call's struct. They are used up once FrameCalls::used counts them.
 CallResources& nextCall(Context& context, std::uint32_t frame, FrameCalls Frame::*kind, const char* info);
 
+/// The frame that calls belong to. `info`: names the call where none was begun.
+std::uint32_t begunFrame(const Context& context, const char* info);
+
 } // namespace nacre::effect

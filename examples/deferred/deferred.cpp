@@ -467,7 +467,6 @@ private:
         std::memcpy(scatter.view.clipFromView, glm::value_ptr(block_.clipFromView), sizeof(glm::mat4));
         std::memcpy(scatter.view.viewFromWorld, glm::value_ptr(block_.viewFromWorld), sizeof(glm::mat4));
         scatter.view.depthEncoding = NACRE_DEPTH_HARDWARE;
-        scatter.frame = index;
         scatter.irradiance = effectImage(images_.irradiance);
         scatter.depth = effectImage(surfaces().depth);
         scatter.materialId = effectImage(isMultisampled() ? images_.ids : images_.drawn.depth);
@@ -482,7 +481,6 @@ private:
         const NacreImage shadowMap = effectImage(images_.shadowMap);
         NacreTransmitInfo transmit{};
         transmit.view = scatter.view;
-        transmit.frame = index;
         transmit.depth = scatter.depth;
         transmit.materialId = scatter.materialId;
         transmit.normal = effectImage(surfaces().normal);
@@ -496,7 +494,6 @@ private:
         use(commands_, images_.scattered, generalRead);
         use(commands_, images_.transmitted, generalRead);
         NacreComposeInfo compose{};
-        compose.frame = index;
         compose.materialId = scatter.materialId;
         compose.scattered = effectImage(images_.scattered);
         compose.transmitted = effectImage(images_.transmitted);

@@ -241,7 +241,7 @@ typedef struct NacreContextInfo {
     VkExtent2D maxExtent;      /**< [1 … 16384] px, the largest render area, or scissor where one is given; see nacreResize */
     uint32_t techniques;       /**< bits 1u << NacreTechnique: those the context is made for; 0 = all. Fewer techniques
                                     take less memory per pixel and per material (see nacreGetScatterCost) */
-    uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; NacreScatterInfo::frame is below it */
+    uint32_t framesInFlight;   /**< [1 … 8] 0 = 2; frames given to nacreBeginFrame are below it */
     uint32_t recordsPerFrame;  /**< [1 … 64] scatter calls, and transmit calls, per frame (views); 0 = 1 */
     uint32_t maxMaterials;     /**< [1 … 65535] most materials that are set, whatever their ids; 0 = 64. Each takes
                                     NacreCost::materialBytes of every technique (bank and bank-surfaces share theirs),
@@ -342,7 +342,6 @@ typedef struct NacreTimestamps {
 
 typedef struct NacreScatterInfo {
     NacreView view;
-    uint32_t frame;           /**< [0 … framesInFlight) the one last given to nacreBeginFrame */
     NacreTechnique technique; /**< 0 = default */
     NacreImage irradiance;    /**< diffuse light without albedo and specular, linear, [0, 65504]; what lies beyond may be
                                    taken for the nearer of the two */
@@ -420,7 +419,6 @@ typedef struct NacreLight {
 
 typedef struct NacreTransmitInfo {
     NacreView view;
-    uint32_t frame;               /**< as in NacreScatterInfo */
     NacreImage depth;
     NacreImage materialId;
     NacreImage normal;            /**< required, as in NacreScatterInfo */
@@ -447,7 +445,6 @@ typedef struct NacreTransmitInfo {
 /** Puts scattered and transmitted light together (see WHAT TO DO WITH THE RESULTS; a wall's two sides have one colour). */
 typedef struct NacreComposeInfo {
     VkRect2D renderArea;      /**< px, of all images; zero extent = the scattered image's whole extent */
-    uint32_t frame;           /**< as in NacreScatterInfo */
     NacreImage materialId;    /**< as in NacreScatterInfo */
     NacreImage strength;      /**< optional, as in NacreTransmitInfo; read of thin walls, and with
                                    NacreContextInfo::noMaterialIds */

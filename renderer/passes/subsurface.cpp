@@ -200,7 +200,6 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Inp
     const NacreCost cost = scatterCost(settings.technique);
     NacreScatterInfo info{};
     info.view = makeView(inputs.view);
-    info.frame = inputs.frame;
     info.technique = settings.technique;
     info.burleySampleBudget = settings.burleySampleBudget;
     NacreBaselineSettings baselines = settings.baselines;
@@ -226,7 +225,6 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const In
     const NacreCost cost = transmitCost();
     NacreTransmitInfo info{};
     info.view = makeView(inputs.view);
-    info.frame = inputs.frame;
     info.depth = asInput(gbuffer.image(GBuffer::Depth));
     info.materialId = asInput(gbuffer.image(GBuffer::MaterialId));
     info.normal = asInput(gbuffer.image(GBuffer::VertexNormal));

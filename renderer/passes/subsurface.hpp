@@ -55,7 +55,6 @@ public:
     std::span<const shared::LobeConstants> lobes() const { return lobes_; }
 
     struct Inputs {
-        std::uint32_t frame = 0;
         const View& view;
         std::span<const NacreLight> lights;
         GBuffer& gbuffer;

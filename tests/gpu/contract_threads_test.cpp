@@ -40,8 +40,7 @@ struct Worker {
         images.info.technique = NACRE_TECHNIQUE_SEPARABLE;
         for (int i = 0; i < frames; ++i) {
             effect.setMaterials({&material, 1});
-            images.info.frame = static_cast<std::uint32_t>(i % 2);
-            ok = ok && nacreBeginFrame(effect.context, images.info.frame) == NACRE_SUCCESS;
+            ok = ok && nacreBeginFrame(effect.context, static_cast<std::uint32_t>(i % 2)) == NACRE_SUCCESS;
             const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
             ok = ok && vkResetCommandPool(gpu.device, commandPool, 0) == VK_SUCCESS;
             ok = ok && vkBeginCommandBuffer(commandBuffer, &begin) == VK_SUCCESS;

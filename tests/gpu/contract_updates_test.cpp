@@ -67,7 +67,6 @@ protected:
         ASSERT_EQ(vkResetCommandPool(gpu.device, flight.commandPool, 0), VK_SUCCESS);
         const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
         ASSERT_EQ(vkBeginCommandBuffer(flight.commandBuffer, &begin), VK_SUCCESS);
-        flight.images.info.frame = frame;
         ASSERT_EQ(nacreBeginFrame(effect.context, frame), NACRE_SUCCESS);
         ASSERT_EQ(nacreCmdScatter(effect.context, flight.commandBuffer, &flight.images.info), NACRE_SUCCESS);
         ASSERT_EQ(vkEndCommandBuffer(flight.commandBuffer), VK_SUCCESS);
