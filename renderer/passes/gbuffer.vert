@@ -12,12 +12,15 @@ layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 color;
+layout(location = 5) in vec2 secondUv;
 
 layout(location = 0) out vec3 outNormal;
 layout(location = 1) out vec4 outTangent;
-layout(location = 2) out vec2 outUv;
-layout(location = 3) out float outDepth;
-layout(location = 4) out vec4 outColor;
+layout(location = 2) out float outDepth;
+layout(location = 3) out vec4 outColor;
+layout(location = 4) out vec2 outUv[textureSlotCount];
+// The passes that draw blended surfaces compare depths for equality.
+invariant gl_Position;
 
 void main() {
     mat3 linear = mat3(draw.worldFromObject);
@@ -27,7 +30,9 @@ void main() {
     float side = draw.index.z != 0u ? -1.0 : 1.0;
     outNormal = normalize(side * (cofactors * normal));
     outTangent = vec4(linear * tangent.xyz, tangent.w * side);
-    outUv = transformUv(uv);
+    for (uint slot = 0u; slot < textureSlotCount; ++slot) {
+        outUv[slot] = textureUv(slot, uv, secondUv);
+    }
     outColor = color;
     outDepth = dot(view.viewRow, world);
     gl_Position = view.clipFromWorld * world;
