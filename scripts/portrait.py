@@ -69,7 +69,7 @@ def bump(x, y, cx, cy, rx, ry):
 def relief(x, y):
     """What the face adds to the ellipsoid, along the way out."""
     side = abs(x)
-    value = -13.0 * bump(side, y, EYE[0] - 1, EYE[1], 17, 12)  # sockets
+    value = -14.0 * bump(side, y, EYE[0] - 1, EYE[1], 19, 15)  # sockets
     value += 5.0 * bump(side, y, 26, 21, 24, 8)  # brow
     ridge = min(max((20.0 - y) / 52.0, 0.0), 1.0)  # from the root of the nose to its tip
     value += (4.0 + 19.0 * ridge**1.4) * bump(x, 0, 0, 0, 8.0 + 3.0 * ridge, 1) * (1 if y > -32 else math.exp(-((y + 32) / 5)**2)) * (
@@ -189,7 +189,7 @@ def iris_texture(size=128):
     return png(size, size, pixel)
 
 
-def sclera_texture(size=128):
+def sclera_texture(size=96):
     dice = random.Random(5)
     veins = [(dice.random(), dice.random(), 0.012 * (0.5 + dice.random())) for _ in range(26)]
 
@@ -262,8 +262,9 @@ class File:
         low, high = ([f(p[i] for p in metres) for i in range(3)] for f in (min, max))
         bytes_of_normals = b"".join(struct.pack("<3bx", *(round(127 * c) for c in n)) for n in mesh.normals())
         attributes = {"POSITION": self.accessor(floats(metres), 5126, "VEC3", count, min=low, max=high),
-                      "NORMAL": self.accessor(bytes_of_normals, 5120, "VEC3", count, normalized=True),
-                      "TEXCOORD_0": self.accessor(floats(mesh.uvs), 5126, "VEC2", count)}
+                      "NORMAL": self.accessor(bytes_of_normals, 5120, "VEC3", count, normalized=True)}
+        if "baseColorTexture" in self.json["materials"][material]["pbrMetallicRoughness"]:
+            attributes["TEXCOORD_0"] = self.accessor(floats(mesh.uvs), 5126, "VEC2", count)
         self.json["bufferViews"][self.json["accessors"][attributes["NORMAL"]]["bufferView"]]["byteStride"] = 4
         if any(c != (255, 255, 255) for c in mesh.colors):
             data = b"".join(struct.pack("<4B", *c, 255) for c in mesh.colors)
@@ -295,15 +296,15 @@ def make(path):
     skin = file.material("skin", [0.8, 0.6, 0.5, 1], 0.5)
     sclera = file.material("sclera", [1, 1, 1, 1], 0.15, file.texture(sclera_texture()))
     iris = file.material("iris", [1, 1, 1, 1], 0.6, file.texture(iris_texture()))
-    cornea = file.material("cornea", [1, 1, 1, 0.04], 0.06, alphaMode="BLEND")
+    cornea = file.material("cornea", [0.1, 0.1, 0.1, 0.04], 0.06, alphaMode="BLEND")
     lashes = file.material("upper lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(128, 64, 26, 7, 1.5, 0.16)), alphaMode="BLEND", doubleSided=True)
     lower = file.material("lower lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(128, 64, 14, 11, 1.6, 0.12)), alphaMode="MASK", alphaCutoff=0.4,
                           doubleSided=True)
-    brows = file.material("brows", [1, 1, 1, 1], 0.7, file.texture(hair_texture(256, 48, 80, 13, 1.9, 0.10)), alphaMode="MASK", alphaCutoff=0.4,
+    brows = file.material("brows", [1, 1, 1, 1], 0.7, file.texture(hair_texture(256, 48, 110, 13, 1.2, 0.14)), alphaMode="MASK", alphaCutoff=0.4,
                           doubleSided=True)
 
     head = Mesh()
-    head.grid(128, 96, face, color=skin_color, wraps=True)
+    head.grid(80, 64, face, color=skin_color, wraps=True)
     lids = Mesh()
     lids.grid(40, 16, lid(True))
     lower_lid = lid(False)

@@ -3,6 +3,7 @@
 #include "renderer/vulkan/graphics_pipeline.hpp"
 
 #include "blended_depth_frag.spv.h"
+#include "blended_depth_vert.spv.h"
 #include "blended_frag.spv.h"
 #include "gbuffer_vert.spv.h"
 
@@ -63,15 +64,18 @@ BlendedSurfaces::BlendedSurfaces(Gpu& gpu, const Inputs& inputs) {
     const std::array lightLayouts{lightSets_.layout(), *inputs.scene.textureSetLayout()};
     depthLayout_ = makeGraphicsLayout(gpu, depthLayouts, sizeof(shared::DrawConstants));
     lightLayout_ = makeGraphicsLayout(gpu, lightLayouts, sizeof(shared::DrawConstants));
+    const auto attributes = GpuScene::vertexAttributes();
     GraphicsPipelineInfo info{.name = "blended surfaces, depth",
-                              .vertexShader = gbuffer_vert_spv,
+                              .vertexShader = blended_depth_vert_spv,
                               .fragmentShader = blended_depth_frag_spv,
                               .vertexBindings = GpuScene::vertexBindings(),
-                              .vertexAttributes = GpuScene::vertexAttributes(),
+                              .vertexAttributes = {attributes[0], attributes[1], attributes[4], attributes[5]},
                               .layout = *depthLayout_};
     depthPipeline_ = makeGraphicsPipeline(gpu, info);
     info.name = "blended surfaces, light";
+    info.vertexShader = gbuffer_vert_spv;
     info.fragmentShader = blended_frag_spv;
+    info.vertexAttributes = attributes;
     info.colorFormats = {colorFormat};
     info.under = true;
     info.layout = *lightLayout_;

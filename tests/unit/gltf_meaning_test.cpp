@@ -158,13 +158,16 @@ TEST(GltfMeaning, AlphaOfVerticesAndTexturesIsBlended) {
     const auto colors = builder.addFloats({1, 1, 1, 1, 1, 1, 1, 0.5f, 1, 1, 1, 1, 1, 1, 1, 1}, "VEC4", 4);
     builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
     EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Blend);
-    builder = texturedSquare(
-        {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
-    EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Opaque);
-    // One pixel of no alpha.
+    builder =
+        texturedSquare({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     builder.json["images"][0]["uri"] =
         "data:image/png;base64,"
-        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAAC0lEQVR42mNgAAIAAAUAAen63NgAAAAASUVORK5CYII=";
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP4z8DwHwAFAAH/VscvDQAAAABJRU5ErkJggg==";
+    EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Opaque);
+    // The same, with half the alpha.
+    builder.json["images"][0]["uri"] =
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP4z8DQAAAEgQGA8wvcoAAAAABJRU5ErkJggg==";
     EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Blend);
 }
 
