@@ -69,7 +69,7 @@ def bump(x, y, cx, cy, rx, ry):
 def relief(x, y):
     """What the face adds to the ellipsoid, along the way out."""
     side = abs(x)
-    value = -14.0 * bump(side, y, EYE[0] - 1, EYE[1], 19, 15)  # sockets
+    value = -12.0 * bump(side, y, EYE[0] - 1, EYE[1], 19, 15)  # sockets
     value += 5.0 * bump(side, y, 26, 21, 24, 8)  # brow
     ridge = min(max((20.0 - y) / 52.0, 0.0), 1.0)  # from the root of the nose to its tip
     value += (4.0 + 19.0 * ridge**1.4) * bump(x, 0, 0, 0, 8.0 + 3.0 * ridge, 1) * (1 if y > -32 else math.exp(-((y + 32) / 5)**2)) * (
@@ -77,7 +77,7 @@ def relief(x, y):
     value += 7.0 * bump(side, y, 10.5, -30, 6.5, 6)  # wings
     value += 5.0 * bump(side, y, 42, -22, 18, 16)  # cheeks
     value += 5.0 * bump(x, y, 0, -51, 20, 5) + 5.5 * bump(x, y, 0, -61, 16, 5)  # lips
-    value -= 3.5 * bump(x, y, 0, -56, 22, 1.8)  # between them
+    value -= 5.0 * bump(x, y, 0, -56, 22, 2.4)  # between them
     value += 7.0 * bump(x, y, 0, -88, 20, 14)  # chin
     value -= 2.0 * bump(x, y, 0, -43, 3, 6)
     return value
@@ -102,7 +102,7 @@ def skin_color(p):
     front = 1.0 if z > 20 else 0.0
     red = 0.75 * front * (bump(x, y, 0, -51.5, 20, 4) + bump(x, y, 0, -60.5, 16, 4.5)) * (1 if abs(x) < 23 else 0.3)
     red += 0.25 * front * (bump(abs(x), y, 40, -22, 16, 14) + bump(x, y, 0, -30, 12, 9))
-    red = min(red, 0.8)
+    red = min(red, 0.9)
     return tuple(round(255 * c) for c in (1 - 0.12 * red, 1 - 0.5 * red, 1 - 0.42 * red))
 
 
@@ -113,7 +113,7 @@ def on_ball(radius, u, v):
 
 def lid_edge(u, upper):
     """Of the opening, in radians."""
-    half = math.radians(64)
+    half = math.radians(53)
     open_share = max(1 - (u / half)**2, 0.0)
     return math.radians(23) * open_share**0.75 if upper else -math.radians(26) * open_share**0.8
 
@@ -135,7 +135,7 @@ def lid(upper):
 
 def lash_strip(upper, length):
     def place(s, t):
-        u = math.radians(54) * (2 * s - 1)
+        u = math.radians(46) * (2 * s - 1)
         edge = lid_edge(u, upper)
         root = on_ball(LID - 0.1, u, edge + math.radians(1.5 if upper else -1.5))
         out = normalize(on_ball(1, u * 1.25, edge))
@@ -304,7 +304,7 @@ def make(path):
                           doubleSided=True)
 
     head = Mesh()
-    head.grid(80, 64, face, color=skin_color, wraps=True)
+    head.grid(80, 80, face, color=skin_color, wraps=True)
     lids = Mesh()
     lids.grid(40, 16, lid(True))
     lower_lid = lid(False)

@@ -117,6 +117,14 @@ TEST(GltfMeaning, ATextureWithoutAnImageIsLeftOutWithANote) {
     EXPECT_NE(builder.error().find("requires the extension \"KHR_texture_basisu\""), std::string::npos);
 }
 
+TEST(GltfMeaning, ALookThatIsNotDrawnIsNoted) {
+    GltfBuilder builder = texturedSquare({{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}});
+    builder.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+    const Scene scene = builder.load();
+    EXPECT_TRUE(hasNote(scene, "uses the extension \"KHR_materials_clearcoat\", which is not drawn"));
+    EXPECT_EQ(scene.notes.size(), 1u);
+}
+
 TEST(GltfMeaning, WebpTakesTheExtensionsImage) {
     GltfBuilder builder = texturedSquare({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     // One pixel, lossless.
