@@ -125,11 +125,12 @@ Atlas Painter::atlas() const {
     return atlas;
 }
 
-Corners cornersOf(const scene::Mesh& mesh, std::size_t triangle, const glm::mat3& uvTransform, const glm::dvec2& size) {
+Corners cornersOf(const scene::Mesh& mesh, std::size_t triangle, const scene::TextureCoordinates& coordinates,
+                  const glm::dvec2& size) {
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i) {
-        const glm::vec2& uv = mesh.vertices[mesh.indices[3 * triangle + i]].uv;
-        corners[i] = glm::dvec2(glm::dmat3(uvTransform) * glm::dvec3(uv, 1)) * size;
+        const glm::vec2& uv = coordinates.of(mesh.vertices[mesh.indices[3 * triangle + i]]);
+        corners[i] = glm::dvec2(glm::dmat3(coordinates.transform) * glm::dvec3(uv, 1)) * size;
     }
     return corners;
 }
@@ -163,7 +164,7 @@ Atlas makeAtlas(const scene::Scene& scene, std::uint32_t surface, std::uint32_t 
         }
         done[index] = true;
         for (std::uint32_t triangle = 0; triangle < mesh.indices.size() / 3; ++triangle) {
-            const Corners corners = cornersOf(mesh, triangle, scene.surfaces[surface].uvTransform, size);
+            const Corners corners = cornersOf(mesh, triangle, scene.surfaces[surface].thicknessUv, size);
             if (cross(corners[1] - corners[0], corners[2] - corners[0]) != 0) {
                 requireFewTurns(corners, size, mesh, where);
                 painter.paint(corners, instance, triangle);

@@ -220,6 +220,7 @@ Compose::Settings Frame::Implementation::look() const {
             .scatteredHasAlbedo = subsurface.scatteredHasAlbedo(),
             .transmit = settings.transmit,
             .hasThickness = scene.hasThickness(),
+            .hasBlended = scene.hasBlended(),
             .exposure = exposure,
             .samples = settings.samples,
             .dither = settings.dither};
@@ -247,6 +248,11 @@ void Frame::Implementation::record(const vk::raii::CommandBuffer& commandBuffer,
              [&] { picture->occlusion.record(commandBuffer, frame, occlusionRadius * sceneBounds.radius()); });
         pass("lighting", [&] { picture->lighting.record(commandBuffer, frame, lights.constants, subsurface.lobes()); });
         recordEffectOnce(commandBuffer, frame, view);
+        if (scene.hasBlended()) {
+            pass("blended surfaces", [&] {
+                picture->blended.record(commandBuffer, frame, scene, static_cast<std::uint32_t>(lights.lights.size()));
+            });
+        }
         pass("compose", [&] { picture->compose.recordRadiance(commandBuffer, frame, look()); });
         pass("tone map", [&] { picture->compose.recordColor(commandBuffer, frame, look()); });
         timer.end(commandBuffer);

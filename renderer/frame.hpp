@@ -30,10 +30,10 @@ struct FrameView {
     glm::vec2 jitter{0};
 };
 
-/// The images that a frame leaves behind, until the next one is recorded. All can be copied from and sampled but for
-/// `color`, which can be copied and blitted; the driver records its barriers with `prepare`
-/// (renderer/vulkan/resources.hpp). All but `color` are RenderSettings::samples times as wide and as high as the
-/// picture.
+/// The images that a frame leaves behind, until the next one is recorded. Blended surfaces are in `color` and
+/// `radiance` alone: the others show what is behind them. All can be copied from and sampled but for `color`, which can
+/// be copied and blitted; the driver records its barriers with `prepare` (renderer/vulkan/resources.hpp). All but
+/// `color` are RenderSettings::samples times as wide and as high as the picture.
 struct FrameImages {
     Image& color;         ///< the picture, sRGB encoded. RGBA8
     Image& radiance;      ///< linear light before exposure and tone curve. RGBA16F
@@ -73,7 +73,7 @@ public:
     /// Replaces the scene's subsurface materials (same count). Afterwards the frame may have to be prepared: where they
     /// ask for second surfaces, or change what thesisBakedKernel compiles in.
     void setMaterials(const std::vector<Material>& materials);
-    /// Replaces the scene's surfaces (same count), which keep their textures, alphaMask and doubleSided.
+    /// Replaces the scene's surfaces (same count), which keep their textures, alphaMode and doubleSided.
     void setSurfaces(std::span<const scene::Surface> surfaces);
     /// Replaces the scene's lights, within FrameLimits.
     void setLights(std::span<const scene::Light> lights);

@@ -55,8 +55,13 @@ PicturePasses::PicturePasses(Gpu& gpu, const Inputs& inputs, const RenderSetting
                        })),
       subsurface(
           metered(gpu, memory, "effect: outputs", [&] { return SubsurfaceImages(gpu, extent, settings.thickness); })),
+      blended(metered(gpu, memory, "blended surfaces",
+                      [&] {
+                          return BlendedSurfaces(gpu, {inputs.scene, gbuffer, lighting, inputs.shadowMaps,
+                                                       inputs.environment, inputs.nearest});
+                      })),
       compose(metered(gpu, memory, "compose and tone map", [&] {
-          return Compose(gpu, {gbuffer, occlusion, lighting, subsurface, inputs.environment, inputs.nearest},
+          return Compose(gpu, {gbuffer, occlusion, lighting, subsurface, blended, inputs.environment, inputs.nearest},
                          {settings.width, settings.height}, limits.materials, limits.framesInFlight);
       })) {
     if (settings.copyFloor) {

@@ -4,6 +4,7 @@
 #include "renderer/frame_report.hpp"
 #include "renderer/frame_settings.hpp"
 #include "renderer/passes/ambient_occlusion.hpp"
+#include "renderer/passes/blended_surfaces.hpp"
 #include "renderer/passes/compose_picture.hpp"
 #include "renderer/passes/copy_floor.hpp"
 #include "renderer/passes/lighting.hpp"
@@ -40,6 +41,7 @@ struct PicturePasses {
         occlusion.forEachImage(action);
         lighting.forEachImage(action);
         subsurface.forEachImage(action);
+        blended.forEachImage(action);
         compose.forEachImage(action);
         if (copyFloor) {
             copyFloor->forEachImage(action);
@@ -52,6 +54,7 @@ struct PicturePasses {
     AmbientOcclusion occlusion;
     Lighting lighting;
     SubsurfaceImages subsurface;
+    BlendedSurfaces blended;
     Compose compose;
     std::optional<CopyFloor> copyFloor;
 };

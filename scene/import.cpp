@@ -1,6 +1,7 @@
 #include "scene/import.hpp"
 
 #include "scene/assimp/assimp_import.hpp"
+#include "scene/blending.hpp"
 #include "scene/default_view.hpp"
 #include "scene/files/scene_file.hpp"
 #include "scene/gltf/gltf_import.hpp"
@@ -60,11 +61,9 @@ void tellOrigin(Scene& scene, const std::filesystem::path& file) {
 
 Scene readModel(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, Format format,
                 std::optional<double> time) {
-    if (format == Format::Gltf) {
-        return loadGltf(file, bytes, time);
-    }
-    Scene scene = loadWithAssimp(file);
-    if (time) {
+    Scene scene = format == Format::Gltf ? loadGltf(file, bytes, time) : loadWithAssimp(file);
+    settleBlending(scene, file);
+    if (time && format != Format::Gltf) {
         scene.notes.push_back(file.string() + ": is not a glTF 2.0 file; its animations are not read");
     }
     return scene;

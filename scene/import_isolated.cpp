@@ -107,7 +107,8 @@ void exchange(A& archive, T& s) {
     archive(s.name), archive(s.baseColor), archive(s.metallic), archive(s.roughness), archive(s.specular);
     archive(s.normalScale), archive(s.emission), archive(s.baseColorTexture), archive(s.normalTexture);
     archive(s.metallicRoughnessTexture), archive(s.thicknessTexture), archive(s.emissionTexture);
-    archive(s.uvTransform), archive(s.alphaMask);
+    archive(s.baseColorUv), archive(s.normalUv), archive(s.metallicRoughnessUv), archive(s.thicknessUv);
+    archive(s.emissionUv), archive(s.alphaMode);
     archive(s.alphaCutoff), archive(s.doubleSided), archive(s.thickness), archive(s.material);
 }
 template <typename A, typename T>

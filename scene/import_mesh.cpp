@@ -109,8 +109,10 @@ void checkMesh(Mesh& mesh, const std::string& where) {
                              std::to_string(vertex.position.x) + ", " + std::to_string(vertex.position.y) + ", " +
                              std::to_string(vertex.position.z) + "), must be finite and below 1e15");
         }
-        if (!std::isfinite(vertex.uv.x) || !std::isfinite(vertex.uv.y)) {
-            vertex.uv = glm::vec2(0);
+        for (glm::vec2* uv : {&vertex.uv, &vertex.secondUv}) {
+            if (!std::isfinite(uv->x) || !std::isfinite(uv->y)) {
+                *uv = glm::vec2(0);
+            }
         }
     }
 }
@@ -225,7 +227,7 @@ void repairNormals(Mesh& mesh) {
     }
 }
 
-void makeTangents(Mesh& mesh, const glm::mat3& uvTransform) {
+void makeTangents(Mesh& mesh, const TextureCoordinates& coordinates) {
     struct Sides {
         std::array<glm::vec3, 2> sum{glm::vec3(0), glm::vec3(0)}; // of faces whose image is upright, mirrored
         std::array<bool, 2> used{};
@@ -235,7 +237,7 @@ void makeTangents(Mesh& mesh, const glm::mat3& uvTransform) {
     for (std::size_t face = 0; face < mesh.indices.size() / 3; ++face) {
         const std::uint32_t* index = &mesh.indices[face * 3];
         const auto uv = [&](std::size_t corner) {
-            return glm::vec2(uvTransform * glm::vec3(mesh.vertices[index[corner]].uv, 1));
+            return glm::vec2(coordinates.transform * glm::vec3(coordinates.of(mesh.vertices[index[corner]]), 1));
         };
         const auto p = corners(mesh, face);
         const glm::vec2 a = uv(1) - uv(0);

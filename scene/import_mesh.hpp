@@ -53,9 +53,9 @@ void makeSmoothNormals(Mesh& mesh, float limit = creaseAngle);
 /// Normalises normals and tangents, and replaces normals that are zero or not finite by those of the faces around them.
 void repairNormals(Mesh& mesh);
 
-/// Tangents along the growing u of uvTransform·uv (Lengyel 2001, weighted by angle); w such that cross(normal,
+/// Tangents along the growing u of these coordinates (Lengyel 2001, weighted by angle); w such that cross(normal,
 /// tangent)·w points up in the image. Vertices between mirrored halves are split; without usable uv any tangent will
 /// do.
-void makeTangents(Mesh& mesh, const glm::mat3& uvTransform);
+void makeTangents(Mesh& mesh, const TextureCoordinates& coordinates);
 
 } // namespace nacre::scene

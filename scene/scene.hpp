@@ -29,6 +29,7 @@ struct Vertex {
     glm::vec4 tangent{1, 0, 0, 1}; ///< w is the bitangent's sign, as in glTF
     glm::vec2 uv{0};
     glm::vec<4, std::uint16_t> color{65535}; ///< multiplies the surface's base colour: linear, 65535 = 1
+    glm::vec2 secondUv{0};                   ///< for textures whose TextureCoordinates say so
 };
 
 /// Indexed triangles with one surface.
@@ -54,6 +55,26 @@ struct Texture {
     std::vector<std::uint8_t> pixels; ///< width·height·4 bytes
 };
 
+/// What the alpha of a surface's base colour does, as in glTF.
+enum class AlphaMode {
+    Opaque, ///< nothing
+    Mask,   ///< what is below the cutoff is not there
+    Blend   ///< the surface lets through what is behind it; it has no subsurface scattering
+};
+
+/// Alpha from which a blended surface throws a shadow, a full one: just above a half, where none is as far from the
+/// truth.
+inline constexpr float blendedShadowCutoff = 0.5f + std::numeric_limits<float>::epsilon();
+
+/// Where on its vertices' texture coordinates a texture lies.
+struct TextureCoordinates {
+    glm::mat3 transform{1}; ///< KHR_texture_transform, applied to uv
+    bool second = false;    ///< of Vertex::secondUv in place of Vertex::uv
+
+    const glm::vec2& of(const Vertex& vertex) const { return second ? vertex.secondUv : vertex.uv; }
+    bool operator==(const TextureCoordinates&) const = default;
+};
+
 /// How a surface looks apart from its subsurface material.
 struct Surface {
     std::string name;
@@ -68,9 +89,13 @@ struct Surface {
     std::uint32_t metallicRoughnessTexture = none; ///< G roughness, B metallic
     std::uint32_t thicknessTexture = none;         ///< G, multiplies `thickness`
     std::uint32_t emissionTexture = none;          ///< RGB, multiplies `emission`
-    glm::mat3 uvTransform{1};                      ///< KHR_texture_transform, applied to uv
-    bool alphaMask = false;
-    float alphaCutoff = 0.5f;
+    TextureCoordinates baseColorUv;
+    TextureCoordinates normalUv;
+    TextureCoordinates metallicRoughnessUv;
+    TextureCoordinates thicknessUv;
+    TextureCoordinates emissionUv;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f; ///< [≥ 0] of AlphaMode::Mask
     bool doubleSided = false;
     /// [≥ 0] mm; bounds the shadow-map thickness, or stands in for it. Negative: none authored.
     float thickness = -1;

@@ -1,6 +1,7 @@
 #include "trace/fingerprint.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 
 namespace nacre::trace {
@@ -13,11 +14,38 @@ void addSurface(Fingerprint& print, const scene::Surface& surface) {
     print.addValue(surface.baseColorTexture);
     print.addValue(surface.normalTexture);
     print.addValue(surface.metallicRoughnessTexture);
-    print.addValue(surface.uvTransform);
-    print.addValue(surface.alphaMask);
+    print.addValue(surface.baseColorUv.transform);
+    print.addValue(surface.alphaMode != scene::AlphaMode::Opaque);
     print.addValue(surface.alphaCutoff);
     print.addValue(surface.doubleSided);
     print.addValue(surface.material);
+    // What few scenes have is added where they have it, so that the others keep the prints they had without it.
+    const scene::TextureCoordinates common{.transform = surface.baseColorUv.transform};
+    const std::array own{surface.baseColorUv, surface.normalUv, surface.metallicRoughnessUv};
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (own[i] != common) {
+            print.addValue(i);
+            print.addValue(own[i].transform);
+            print.addValue(own[i].second);
+        }
+    }
+    if (surface.alphaMode == scene::AlphaMode::Blend) {
+        print.addValue(surface.alphaMode);
+    }
+}
+
+void addVertices(Fingerprint& print, const std::vector<scene::Vertex>& vertices) {
+    bool second = false;
+    print.addValue(vertices.size());
+    for (const scene::Vertex& vertex : vertices) {
+        print.add(std::as_bytes(std::span(&vertex, 1)).first(offsetof(scene::Vertex, secondUv)));
+        second = second || vertex.secondUv != glm::vec2(0);
+    }
+    for (const scene::Vertex& vertex : vertices) {
+        if (second) {
+            print.addValue(vertex.secondUv);
+        }
+    }
 }
 
 void addMaterial(Fingerprint& print, const Material& material) {
@@ -81,7 +109,7 @@ std::string Fingerprint::text() const {
 std::string fingerprintOf(const scene::Scene& scene) {
     Fingerprint print;
     for (const scene::Mesh& mesh : scene.meshes) {
-        print.addAll(mesh.vertices);
+        addVertices(print, mesh.vertices);
         print.addAll(mesh.indices);
         print.addValue(mesh.surface);
     }

@@ -92,10 +92,6 @@ struct Masked {
 
 namespace {
 
-glm::vec2 transformedUv(const scene::Surface& surface, const glm::vec2& uv) {
-    return glm::vec2(surface.uvTransform * glm::vec3(uv, 1));
-}
-
 /// Before textures.
 glm::vec4 baseColorAt(const TracedInstance& instance, std::uint32_t triangle, float u, float v) {
     const auto [a, b, c] = instance.vertices(triangle);
@@ -105,10 +101,18 @@ glm::vec4 baseColorAt(const TracedInstance& instance, std::uint32_t triangle, fl
     return instance.surface->baseColor * color / 65535.0f;
 }
 
-glm::vec2 textureCoordinates(const TracedInstance& instance, std::uint32_t triangle, float u, float v) {
+glm::vec2 textureCoordinates(const TracedInstance& instance, const scene::TextureCoordinates& coordinates,
+                             std::uint32_t triangle, float u, float v) {
     const auto [a, b, c] = instance.vertices(triangle);
     const std::vector<scene::Vertex>& vertices = instance.mesh->vertices;
-    return transformedUv(*instance.surface, (1 - u - v) * vertices[a].uv + u * vertices[b].uv + v * vertices[c].uv);
+    const glm::vec2 uv =
+        (1 - u - v) * coordinates.of(vertices[a]) + u * coordinates.of(vertices[b]) + v * coordinates.of(vertices[c]);
+    return glm::vec2(coordinates.transform * glm::vec3(uv, 1));
+}
+
+/// Alpha below which rays meet nothing. Of blended surfaces it is that of the renderer's shadow maps.
+float cutoffOf(const scene::Surface& surface) {
+    return surface.alphaMode == scene::AlphaMode::Blend ? scene::blendedShadowCutoff : surface.alphaCutoff;
 }
 
 /// Embree asks it of every hit on a masked surface.
@@ -124,10 +128,10 @@ void rejectHoles(const RTCFilterFunctionNArguments* arguments) {
         const float v = RTCHitN_v(arguments->hit, arguments->N, i);
         float alpha = baseColorAt(*masked.instance, triangle, u, v).a;
         if (surface.baseColorTexture != scene::none) {
-            const glm::vec2 uv = textureCoordinates(*masked.instance, triangle, u, v);
+            const glm::vec2 uv = textureCoordinates(*masked.instance, surface.baseColorUv, triangle, u, v);
             alpha *= sampleTexture(masked.scene->textures[surface.baseColorTexture], uv).a;
         }
-        if (alpha < surface.alphaCutoff) {
+        if (alpha < cutoffOf(surface)) {
             arguments->valid[i] = 0;
         }
     }
@@ -189,7 +193,7 @@ void Geometry::Implementation::attach(TracedInstance& instance, Masked& mask) {
                                sizeof(glm::vec3), instance.positions.size() - 1);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, instance.mesh->indices.data(), 0,
                                3 * sizeof(std::uint32_t), instance.mesh->indices.size() / 3);
-    if (instance.surface->alphaMask) {
+    if (instance.surface->alphaMode != scene::AlphaMode::Opaque) {
         mask = {scene, &instance};
         rtcSetGeometryUserData(geometry, &mask);
         rtcSetGeometryIntersectFilterFunction(geometry, rejectHoles);
@@ -321,21 +325,24 @@ SurfacePoint Geometry::surfaceAt(const Hit& hit) const {
     point.vertexNormal = normalizedOr(normal, point.normal);
     point.shadingNormal = point.vertexNormal;
     point.shadowOrigin = point.position + rise;
-    const glm::vec2 uv = textureCoordinates(instance, hit.triangle, hit.u, hit.v);
+    const auto texel = [&](std::uint32_t texture, const scene::TextureCoordinates& coordinates) {
+        const glm::vec2 uv = textureCoordinates(instance, coordinates, hit.triangle, hit.u, hit.v);
+        return sampleTexture(textures[texture], uv);
+    };
     glm::vec4 color = baseColorAt(instance, hit.triangle, hit.u, hit.v);
     if (surface.baseColorTexture != scene::none) {
-        color *= sampleTexture(textures[surface.baseColorTexture], uv);
+        color *= texel(surface.baseColorTexture, surface.baseColorUv);
     }
     float metallic = surface.metallic;
     if (surface.metallicRoughnessTexture != scene::none) {
-        metallic *= sampleTexture(textures[surface.metallicRoughnessTexture], uv).b;
+        metallic *= texel(surface.metallicRoughnessTexture, surface.metallicRoughnessUv).b;
     }
     point.albedo = glm::vec3(color) * (1 - metallic);
     tangent -= point.vertexNormal * glm::dot(point.vertexNormal, tangent);
     if (surface.normalTexture != scene::none && glm::length(tangent) >= 1e-12f) {
         tangent = glm::normalize(tangent);
         const glm::vec3 bitangent = glm::cross(point.vertexNormal, tangent) * handedness;
-        glm::vec3 detail = glm::vec3(sampleTexture(textures[surface.normalTexture], uv)) * 2.0f - 1.0f;
+        glm::vec3 detail = glm::vec3(texel(surface.normalTexture, surface.normalUv)) * 2.0f - 1.0f;
         detail.x *= surface.normalScale;
         detail.y *= surface.normalScale;
         point.shadingNormal =

@@ -68,7 +68,7 @@ vec3 lightOf(ivec2 pixel, uint index) {
     case shownPicture:
         return texelFetch(radianceImage, pixel, 0).rgb;
     case shownDiffuse:
-        return isSurface ? texelFetch(radianceImage, pixel, 0).rgb - texelFetch(specularImage, pixel, 0).rgb : vec3(0.0);
+        return isSurface ? max(texelFetch(radianceImage, pixel, 0).rgb - texelFetch(specularImage, pixel, 0).rgb, 0.0) : vec3(0.0);
     case shownIrradiance:
         return texelFetch(irradianceImage, pixel, 0).rgb / pi;
     case shownScattered: {

@@ -1,6 +1,6 @@
 // Puts the picture's radiance together: albedo / pi · (scattered + transmitted) + specular + emission, with the light of
-// thin walls divided between their two sides (include/nacre/nacre.h, "What to do with the results"), and the surroundings
-// where there is nothing.
+// thin walls divided between their two sides (include/nacre/nacre.h, "What to do with the results"), the surroundings where
+// there is nothing, and blended surfaces before both.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shader_types.h"
@@ -27,12 +27,14 @@ layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
 layout(set = 0, binding = 11) uniform sampler2D environmentImage;
 layout(set = 0, binding = 12) uniform sampler2D occlusionImage;
 layout(set = 0, binding = 13) uniform sampler2D thicknessImage;
-layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D outRadiance;
+layout(set = 0, binding = 14) uniform sampler2D blendedImage;
+layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outRadiance;
 layout(push_constant) uniform Push {
     uint scatter;
     uint scatteredHasAlbedo;
     uint transmit;
     uint hasThickness;
+    uint hasBlended;
 };
 
 #include "camera_rays.glsl"
@@ -94,6 +96,10 @@ void main() {
     } else {
         vec3 direction = environmentDirection(viewDirection(pixel), environment.rotation.xy);
         radiance = textureLod(environmentImage, equirectangular(direction), 0.0).rgb * environment.rotation.z;
+    }
+    if (hasBlended != 0u) {
+        vec4 blended = texelFetch(blendedImage, pixel, 0);
+        radiance = (1.0 - blended.a) * radiance + blended.rgb;
     }
     imageStore(outRadiance, pixel, vec4(min(radiance, 65504.0), 1.0));
 }

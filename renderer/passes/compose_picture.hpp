@@ -1,6 +1,7 @@
 // Puts the picture together and turns it into 8-bit colour. Internal to the renderer.
 #pragma once
 
+#include "renderer/passes/blended_surfaces.hpp"
 #include "renderer/passes/environment.hpp"
 #include "renderer/passes/gbuffer.hpp"
 #include "renderer/passes/lighting.hpp"
@@ -15,6 +16,7 @@ public:
         AmbientOcclusion& occlusion;
         Lighting& lighting;
         SubsurfaceImages& subsurface;
+        BlendedSurfaces& blended;
         Environment& environment;
         const vk::raii::Sampler& nearest;
     };
@@ -27,6 +29,7 @@ public:
         bool transmit = true;
         bool hasThickness =
             false; ///< whether a subsurface body has an authored thickness, through which surroundings shine
+        bool hasBlended = false; ///< whether BlendedSurfaces was recorded
         float exposure = 1;
         std::uint32_t samples = 1; ///< per axis and pixel of the picture
         bool dither = false;

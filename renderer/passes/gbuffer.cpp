@@ -101,7 +101,8 @@ void GBuffer::record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t
                                   .pDepthAttachment = &depth});
     setWholeViewport(commandBuffer, extent);
     commandBuffer.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, sets_.of(frame), {});
-    scene.recordDraws(commandBuffer, *layout_, *opaque_, *masked_, 0, GpuScene::Cull::BackFaces);
+    scene.recordDraws(commandBuffer, *layout_, {.opaque = *opaque_, .masked = *masked_, .blended = {}}, 0,
+                      GpuScene::Cull::BackFaces);
     commandBuffer.endRendering();
 }
 

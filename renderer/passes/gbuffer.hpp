@@ -1,4 +1,5 @@
-// What the camera sees, one value per pixel: the images that lighting and the effect read. Internal to the renderer.
+// What the camera sees of surfaces that are not blended, one value per pixel: the images that lighting and the effect
+// read. Internal to the renderer.
 #pragma once
 
 #include "renderer/camera.hpp"

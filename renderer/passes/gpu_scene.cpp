@@ -16,20 +16,22 @@ struct VertexAttributes {
     glm::vec4 tangent;
     glm::vec2 uv;
     glm::vec<4, std::uint16_t> color;
+    glm::vec2 secondUv;
 };
 
-/// The textures of a surface, as surface_textures.glsl binds them, and the flags that say which it has.
+/// The textures of a surface in the order of shared::baseColorSlot and so on, and the flags that say which it has.
 struct TextureSlot {
     std::uint32_t scene::Surface::*texture;
+    scene::TextureCoordinates scene::Surface::*coordinates;
     std::uint32_t flag;
 };
-constexpr std::array textureSlots{
-    TextureSlot{&scene::Surface::baseColorTexture, shared::hasBaseColorTexture},
-    TextureSlot{&scene::Surface::normalTexture, shared::hasNormalTexture},
-    TextureSlot{&scene::Surface::metallicRoughnessTexture, shared::hasMetallicRoughnessTexture},
-    TextureSlot{&scene::Surface::thicknessTexture, shared::hasThicknessTexture},
-    TextureSlot{&scene::Surface::emissionTexture, shared::hasEmissionTexture}};
-constexpr std::size_t slotCount = textureSlots.size();
+constexpr std::array<TextureSlot, shared::textureSlotCount> textureSlots{
+    {{&scene::Surface::baseColorTexture, &scene::Surface::baseColorUv, shared::hasBaseColorTexture},
+     {&scene::Surface::normalTexture, &scene::Surface::normalUv, shared::hasNormalTexture},
+     {&scene::Surface::metallicRoughnessTexture, &scene::Surface::metallicRoughnessUv,
+      shared::hasMetallicRoughnessTexture},
+     {&scene::Surface::thicknessTexture, &scene::Surface::thicknessUv, shared::hasThicknessTexture},
+     {&scene::Surface::emissionTexture, &scene::Surface::emissionUv, shared::hasEmissionTexture}}};
 
 /// An authored thickness of 0 mm is still authored; the effect reads 0 as "none".
 constexpr float smallestThickness = 1e-3f;
@@ -67,15 +69,15 @@ void check(const scene::Scene& scene, const scene::Surface& surface) {
 
 /// Whether the two are drawn alike but for their constants.
 bool drawnAlike(const scene::Surface& a, const scene::Surface& b) {
-    return a.alphaMask == b.alphaMask && a.doubleSided == b.doubleSided &&
+    return a.alphaMode == b.alphaMode && a.doubleSided == b.doubleSided &&
            std::ranges::all_of(textureSlots,
                                [&](const TextureSlot& slot) { return a.*slot.texture == b.*slot.texture; });
 }
 
 /// Whether the two have the same holes.
 bool masksAlike(const scene::Surface& a, const scene::Surface& b) {
-    return !a.alphaMask ||
-           (a.baseColor.a == b.baseColor.a && a.alphaCutoff == b.alphaCutoff && a.uvTransform == b.uvTransform);
+    return a.alphaMode == scene::AlphaMode::Opaque ||
+           (a.baseColor.a == b.baseColor.a && a.alphaCutoff == b.alphaCutoff && a.baseColorUv == b.baseColorUv);
 }
 
 std::uint32_t makeFlags(const scene::Surface& surface) {
@@ -88,13 +90,22 @@ std::uint32_t makeFlags(const scene::Surface& surface) {
 
 shared::SurfaceConstants makeSurfaceConstants(const scene::Surface& surface) {
     const float thickness = surface.thickness < 0 ? 0.0f : std::max(surface.thickness, smallestThickness);
-    const glm::mat3 rows = glm::transpose(surface.uvTransform);
-    return {.baseColor = surface.baseColor,
-            .emission = {surface.emission, surface.normalScale},
-            .parameters = {surface.metallic, surface.roughness, surface.specular, surface.alphaCutoff},
-            .uvTransformU = {rows[0], thickness},
-            .uvTransformV = {rows[1], 0},
-            .material = {surface.material == scene::none ? 0u : surface.material + 1, 0, 0, 0}};
+    const float cutoff =
+        surface.alphaMode == scene::AlphaMode::Blend ? scene::blendedShadowCutoff : surface.alphaCutoff;
+    shared::SurfaceConstants result{.baseColor = surface.baseColor,
+                                    .emission = {surface.emission, surface.normalScale},
+                                    .parameters = {surface.metallic, surface.roughness, surface.specular, cutoff},
+                                    .thickness = {thickness, 0, 0, 0},
+                                    .uvTransformU = {},
+                                    .uvTransformV = {},
+                                    .material = {surface.material == scene::none ? 0u : surface.material + 1, 0, 0, 0}};
+    for (std::size_t slot = 0; slot < textureSlots.size(); ++slot) {
+        const scene::TextureCoordinates& coordinates = surface.*textureSlots[slot].coordinates;
+        const glm::mat3 rows = glm::transpose(coordinates.transform);
+        result.uvTransformU[slot] = {rows[0], coordinates.second ? 1 : 0};
+        result.uvTransformV[slot] = {rows[1], 0};
+    }
+    return result;
 }
 
 template <typename T> std::span<const std::byte> bytes(const std::vector<T>& values) {
@@ -144,10 +155,10 @@ void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
                              .surface = mesh.surface,
                              .flags = makeFlags(surface),
                              .doubleSided = surface.doubleSided,
-                             .alphaMask = surface.alphaMask});
+                             .alphaMode = surface.alphaMode});
         for (const scene::Vertex& vertex : mesh.vertices) {
             positions.push_back(vertex.position);
-            attributes.push_back({vertex.normal, vertex.tangent, vertex.uv, vertex.color});
+            attributes.push_back({vertex.normal, vertex.tangent, vertex.uv, vertex.color, vertex.secondUv});
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
@@ -158,7 +169,7 @@ void GpuScene::uploadGeometry(Gpu& gpu, const scene::Scene& scene) {
         draws_.push_back(draw);
     }
     // Fewest pipeline changes.
-    std::stable_partition(draws_.begin(), draws_.end(), [](const Draw& draw) { return !draw.alphaMask; });
+    std::ranges::stable_sort(draws_, {}, &Draw::alphaMode);
     using Kind = vk::BufferUsageFlagBits;
     positions_ = uploadBuffer(gpu, "vertex positions", bytes(positions), Kind::eVertexBuffer);
     attributes_ = uploadBuffer(gpu, "vertex attributes", bytes(attributes), Kind::eVertexBuffer);
@@ -203,7 +214,7 @@ void GpuScene::setSurfaces(std::span<const scene::Surface> surfaces) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         if (!drawnAlike(surfaces[i], surfaces_[i])) {
             throw RendererError("the surface '" + surfaces[i].name +
-                                "' cannot get other textures, another alphaMask or another doubleSided");
+                                "' cannot get other textures, another alphaMode or another doubleSided");
         }
         checkMaterial(surfaces[i], materialCount_);
         sameHoles = sameHoles && masksAlike(surfaces[i], surfaces_[i]);
@@ -218,7 +229,7 @@ void GpuScene::uploadSurfaces(Gpu& gpu, const scene::Scene& scene, std::uint32_t
     const std::uint32_t count = std::max<std::uint32_t>(static_cast<std::uint32_t>(scene.surfaces.size()), 1);
     constants_ = FrameBuffer(gpu, "surfaces", count * sizeof(shared::SurfaceConstants),
                              vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
-    const std::vector types(slotCount, vk::DescriptorType::eCombinedImageSampler);
+    const std::vector types(textureSlots.size(), vk::DescriptorType::eCombinedImageSampler);
     textureSetLayout_ = makeSetLayout(gpu, types, vk::ShaderStageFlagBits::eFragment);
     texturePool_ = makePool(gpu, types, count);
     const auto binding = [&](std::uint32_t texture) {
@@ -254,7 +265,11 @@ std::vector<vk::VertexInputAttributeDescription> GpuScene::vertexAttributes() {
         {.location = 4,
          .binding = 1,
          .format = vk::Format::eR16G16B16A16Unorm,
-         .offset = offsetof(VertexAttributes, color)}};
+         .offset = offsetof(VertexAttributes, color)},
+        {.location = 5,
+         .binding = 1,
+         .format = vk::Format::eR32G32Sfloat,
+         .offset = offsetof(VertexAttributes, secondUv)}};
 }
 
 bool GpuScene::hasThickness() const {
@@ -263,13 +278,17 @@ bool GpuScene::hasThickness() const {
     });
 }
 
-void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout, vk::Pipeline opaque,
-                           vk::Pipeline masked, std::uint32_t shadowLayer, Cull cull) const {
+void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout,
+                           const Pipelines& pipelines, std::uint32_t passConstant, Cull cull) const {
     commandBuffer.bindVertexBuffers(0, {positions_.handle(), attributes_.handle()}, {0, 0});
     commandBuffer.bindIndexBuffer(indices_.handle(), 0, vk::IndexType::eUint32);
     vk::Pipeline bound;
+    const std::array byMode{pipelines.opaque, pipelines.masked, pipelines.blended};
     for (const Draw& draw : draws_) {
-        const vk::Pipeline pipeline = draw.alphaMask ? masked : opaque;
+        const vk::Pipeline pipeline = byMode[static_cast<std::size_t>(draw.alphaMode)];
+        if (!pipeline) {
+            continue;
+        }
         if (pipeline != bound) {
             commandBuffer.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
             bound = pipeline;
@@ -280,7 +299,7 @@ void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::Pip
         commandBuffer.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, *textureSets_[draw.surface], {});
         const shared::DrawConstants constants{
             .worldFromObject = draw.worldFromObject,
-            .index = {draw.surface, shadowLayer, draw.mirrored ? 1u : 0u, draw.flags}};
+            .index = {draw.surface, passConstant, draw.mirrored ? 1u : 0u, draw.flags}};
         commandBuffer.pushConstants<shared::DrawConstants>(
             layout, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, constants);
         commandBuffer.drawIndexed(draw.indexCount, 1, draw.firstIndex, draw.vertexOffset, 0);

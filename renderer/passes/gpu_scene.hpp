@@ -20,7 +20,7 @@ struct Draw {
     glm::mat4 worldFromObject{1};
     bool mirrored = false; ///< the transform turns triangles inside out
     bool doubleSided = false;
-    bool alphaMask = false;
+    scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
 };
 
 class GpuScene {
@@ -29,7 +29,7 @@ public:
     GpuScene(Gpu& gpu, const scene::Scene& scene, std::uint32_t framesInFlight);
 
     /// Replaces the surfaces, for frames that begin later. Throws RendererError for another number of them, and naming
-    /// a surface whose textures, alphaMask or doubleSided are not what they were.
+    /// a surface whose textures, alphaMode or doubleSided are not what they were.
     void setSurfaces(std::span<const scene::Surface> surfaces);
     /// Before what draws frame `frame` is recorded; its previous use must have finished.
     void beginFrame(std::uint32_t frame) { constants_.write(frame, std::as_bytes(std::span(surfaceConstants_))); }
@@ -47,17 +47,23 @@ public:
     static std::vector<vk::VertexInputAttributeDescription> vertexAttributes();
     /// Whether single-sided surfaces lose the triangles that face away.
     enum class Cull { BackFaces, Nothing };
-    /// Draws every instance, alpha-masked ones with their own pipeline, inside a rendering whose set 0 is bound.
-    /// `shadowLayer` is handed to the shaders.
-    void recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout, vk::Pipeline opaque,
-                     vk::Pipeline masked, std::uint32_t shadowLayer, Cull cull) const;
+    /// A pipeline for surfaces of each alpha mode; null: they are not drawn.
+    struct Pipelines {
+        vk::Pipeline opaque;
+        vk::Pipeline masked;
+        vk::Pipeline blended;
+    };
+    /// Draws every instance inside a rendering whose set 0 is bound. `passConstant` is handed to the shaders.
+    void recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout,
+                     const Pipelines& pipelines, std::uint32_t passConstant, Cull cull) const;
+    bool hasBlended() const { return !draws_.empty() && draws_.back().alphaMode == scene::AlphaMode::Blend; }
 
 private:
     void uploadGeometry(Gpu& gpu, const scene::Scene& scene);
     void uploadTextures(Gpu& gpu, const scene::Scene& scene);
     void uploadSurfaces(Gpu& gpu, const scene::Scene& scene, std::uint32_t framesInFlight);
 
-    std::vector<Draw> draws_;
+    std::vector<Draw> draws_; ///< in the order of scene::AlphaMode
     std::size_t materialCount_ = 0;
     std::vector<scene::Surface> surfaces_;
     std::vector<shared::SurfaceConstants> surfaceConstants_;

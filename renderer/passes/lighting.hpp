@@ -29,6 +29,8 @@ public:
     Image& specular() { return specular_; }
     void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
                 std::span<const shared::LightConstants> lights, std::span<const shared::LobeConstants> lobes);
+    /// What `record` was handed.
+    const FrameBuffer& lights() const { return lights_; }
     /// Pixels with a subsurface material in the last frame of this number, which must have finished.
     std::uint32_t subsurfacePixels(std::uint32_t frame) const;
     template <typename Action> void forEachImage(const Action& action) {

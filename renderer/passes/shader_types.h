@@ -18,6 +18,14 @@ NACRE_CONSTANT groupSize = 16;
 
 NACRE_CONSTANT noShadow = 0xffffffffu;
 
+/// The textures of a surface, as they are bound and as SurfaceConstants counts them.
+NACRE_CONSTANT baseColorSlot = 0;
+NACRE_CONSTANT normalSlot = 1;
+NACRE_CONSTANT metallicRoughnessSlot = 2;
+NACRE_CONSTANT thicknessSlot = 3;
+NACRE_CONSTANT emissionSlot = 4;
+NACRE_CONSTANT textureSlotCount = 5;
+
 /// DrawConstants::index.w
 NACRE_CONSTANT hasBaseColorTexture = 1;
 NACRE_CONSTANT hasNormalTexture = 2;
@@ -48,15 +56,16 @@ struct SurfaceConstants {
     vec4 baseColor;
     vec4 emission;     ///< w: normalScale
     vec4 parameters;   ///< metallic, roughness, specular, alpha cutoff
-    vec4 uvTransformU; ///< dot with vec3(uv, 1) is the transformed u; w: authored thickness, mm, 0 = none
-    vec4 uvTransformV; ///< the same for v
+    vec4 thickness;    ///< x: authored, mm, 0 = none
+    vec4 uvTransformU[textureSlotCount]; ///< dot with vec3(uv, 1) is the transformed u; w: 1 = of the second uv
+    vec4 uvTransformV[textureSlotCount]; ///< the same for v
     uvec4 material;    ///< x: material id
 };
 
 /// What one draw pushes.
 struct DrawConstants {
     mat4 worldFromObject;
-    uvec4 index; ///< x: surface, y: shadow layer, z: 1 when the transform mirrors, w: flags above
+    uvec4 index; ///< x: surface, y: the pass's own (shadow layer, blended layer, lights), z: 1 when the transform mirrors, w: flags above
 };
 
 /// What the shaders read of a NacreLight.
@@ -154,7 +163,7 @@ static_assert(sizeof(AccumulateConstants) == 64);
 static_assert(sizeof(Mark) == 32);
 static_assert(sizeof(ShowConstants) == 64);
 static_assert(sizeof(ViewConstants) == 176);
-static_assert(sizeof(SurfaceConstants) == 96);
+static_assert(sizeof(SurfaceConstants) == 240);
 static_assert(sizeof(DrawConstants) == 80);
 static_assert(sizeof(LightConstants) == 144);
 static_assert(sizeof(ShadowLayer) == 96);

@@ -17,7 +17,7 @@ layout(location = 0) out float outDepth;
 void main() {
 #ifdef ALPHA_MASK
     SurfaceConstants surface = surfaces[draw.index.x];
-    if (baseColor(surface, inUv, inColor).a < surface.parameters.w) {
+    if (surface.baseColor.a * textureColor(inUv, inColor).a < surface.parameters.w) {
         discard;
     }
 #endif

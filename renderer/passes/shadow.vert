@@ -11,6 +11,7 @@ layout(location = 0) in vec3 position;
 #ifdef ALPHA_MASK
 layout(location = 1) in vec2 uv;
 layout(location = 4) in vec4 color;
+layout(location = 5) in vec2 secondUv;
 layout(location = 1) out vec2 outUv;
 layout(location = 2) out vec4 outColor;
 #endif
@@ -21,7 +22,7 @@ void main() {
     vec4 world = draw.worldFromObject * vec4(position, 1.0);
     outFromOrigin = world.xyz - layer.origin.xyz;
 #ifdef ALPHA_MASK
-    outUv = transformUv(uv);
+    outUv = textureUv(baseColorSlot, uv, secondUv);
     outColor = color;
 #endif
     gl_Position = layer.clipFromWorld * world;

@@ -65,14 +65,14 @@ ShadowMaps::ShadowMaps(Gpu& gpu, const GpuScene& scene, std::uint32_t layerCount
                                          .vertexAttributes = {vertexAttributes[0]},
                                          .colorFormats = {linearFormat},
                                          .layout = *layout_});
-    masked_ =
-        makeGraphicsPipeline(gpu, {.name = "shadow map, masked",
-                                   .vertexShader = shadow_masked_vert_spv,
-                                   .fragmentShader = shadow_masked_frag_spv,
-                                   .vertexBindings = vertexBindings,
-                                   .vertexAttributes = {vertexAttributes[0], vertexAttributes[1], vertexAttributes[4]},
-                                   .colorFormats = {linearFormat},
-                                   .layout = *layout_});
+    masked_ = makeGraphicsPipeline(
+        gpu, {.name = "shadow map, masked",
+              .vertexShader = shadow_masked_vert_spv,
+              .fragmentShader = shadow_masked_frag_spv,
+              .vertexBindings = vertexBindings,
+              .vertexAttributes = {vertexAttributes[0], vertexAttributes[1], vertexAttributes[4], vertexAttributes[5]},
+              .colorFormats = {linearFormat},
+              .layout = *layout_});
 }
 
 std::vector<std::uint32_t> ShadowMaps::staleLayers(const GpuScene& scene, std::span<const shared::ShadowLayer> layers) {
@@ -124,8 +124,9 @@ void ShadowMaps::recordLayer(const vk::raii::CommandBuffer& commandBuffer, std::
                                   .pDepthAttachment = &depth});
     setWholeViewport(commandBuffer, area.extent);
     commandBuffer.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, sets_.of(frame), {});
+    // Blended surfaces are masked at scene::blendedShadowCutoff: a map has one depth a texel.
     // Both sides: an open or inside-out mesh throws a shadow too, and the nearest surface is what counts.
-    scene.recordDraws(commandBuffer, *layout_, *opaque_, *masked_, layer, GpuScene::Cull::Nothing);
+    scene.recordDraws(commandBuffer, *layout_, {*opaque_, *masked_, *masked_}, layer, GpuScene::Cull::Nothing);
     commandBuffer.endRendering();
 }
 

@@ -17,8 +17,7 @@ bool has(uint flag) {
     return (draw.index.w & flag) != 0u;
 }
 
-/// `vertexColor` is the vertices' own, which multiplies the surface's.
-vec4 baseColor(SurfaceConstants surface, vec2 uv, vec4 vertexColor) {
-    vec4 color = surface.baseColor * vertexColor;
-    return has(hasBaseColorTexture) ? color * texture(baseColorTexture, uv) : color;
+/// What multiplies the surface's base colour; `vertexColor` is the vertices' own.
+vec4 textureColor(vec2 uv, vec4 vertexColor) {
+    return has(hasBaseColorTexture) ? vertexColor * texture(baseColorTexture, uv) : vertexColor;
 }

@@ -27,11 +27,18 @@ vk::raii::Pipeline makePipeline(const Gpu& gpu, const GraphicsPipelineInfo& info
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo rasterization{.lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
-    const vk::PipelineDepthStencilStateCreateInfo depth{
-        .depthTestEnable = VK_TRUE, .depthWriteEnable = VK_TRUE, .depthCompareOp = vk::CompareOp::eGreater};
+    const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = VK_TRUE,
+                                                        .depthWriteEnable = info.under ? VK_FALSE : VK_TRUE,
+                                                        .depthCompareOp = info.under ? vk::CompareOp::eEqual
+                                                                                     : vk::CompareOp::eGreater};
     using Component = vk::ColorComponentFlagBits;
     const std::vector<vk::PipelineColorBlendAttachmentState> attachments(
-        info.colorFormats.size(), {.colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA});
+        info.colorFormats.size(), {.blendEnable = info.under ? VK_TRUE : VK_FALSE,
+                                   .srcColorBlendFactor = vk::BlendFactor::eOneMinusDstAlpha,
+                                   .dstColorBlendFactor = vk::BlendFactor::eOne,
+                                   .srcAlphaBlendFactor = vk::BlendFactor::eOneMinusDstAlpha,
+                                   .dstAlphaBlendFactor = vk::BlendFactor::eOne,
+                                   .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA});
     const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(attachments.size()),
                                                       .pAttachments = attachments.data()};
     constexpr std::array dynamics{vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eCullMode,

@@ -9,7 +9,7 @@
 
 namespace nacre::renderer {
 
-/// A pipeline for dynamic rendering: triangles, reversed depth, no blending. Viewport, scissor, cull mode and front
+/// A pipeline for dynamic rendering: triangles, reversed depth. Viewport, scissor, cull mode and front
 /// face are dynamic.
 struct GraphicsPipelineInfo {
     std::string name;
@@ -19,6 +19,8 @@ struct GraphicsPipelineInfo {
     std::vector<vk::VertexInputAttributeDescription> vertexAttributes;
     std::vector<vk::Format> colorFormats;
     bool alphaMask = false; ///< specialisation constant 0 of the fragment shader
+    /// Draws at the very depths that are there, under the colours that are: alpha times radiance, nearest first.
+    bool under = false;
     vk::PipelineLayout layout;
 };
 

@@ -152,7 +152,7 @@ private:
         }
         mesh.surface = materials_.surface(source.mMaterialIndex);
         if (scene_.surfaces[mesh.surface].normalTexture != none) {
-            makeTangents(mesh, glm::mat3(1));
+            makeTangents(mesh, {});
         }
         scene_.meshes.push_back(std::move(mesh));
         return meshes_[index] = static_cast<std::uint32_t>(scene_.meshes.size() - 1);

@@ -123,7 +123,7 @@ void AssimpMaterials::addOpacity(const aiMaterial& material, Surface& surface) {
     if (opacity == none || surface.baseColorTexture == none) {
         return;
     }
-    surface.alphaMask = true;
+    surface.alphaMode = AlphaMode::Mask;
     aiString colorPath;
     aiString opacityPath;
     material.GetTexture(aiTextureType_DIFFUSE, 0, &colorPath);
@@ -179,6 +179,12 @@ std::uint32_t AssimpMaterials::surface(unsigned index) {
             surface.emission = {clamp01(emission.r), clamp01(emission.g), clamp01(emission.b)};
         }
         addOpacity(material, surface);
+        // Many exporters write 0 for 1.
+        if (surface.alphaMode == AlphaMode::Opaque && material.Get(AI_MATKEY_OPACITY, number) == aiReturn_SUCCESS &&
+            number > 0 && number < 1) {
+            surface.alphaMode = AlphaMode::Blend;
+            surface.baseColor.w = number;
+        }
     }
     scene_.surfaces.push_back(std::move(surface));
     return entry->second;

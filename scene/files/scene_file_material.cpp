@@ -106,9 +106,7 @@ void readLook(SceneFileObject look, Scene& model, const Surfaces& surfaces) {
 void assignMaterials(SceneFileObject& object, Scene& model) {
     if (const nlohmann::json* material = object.member("material")) {
         const std::uint32_t index = addMaterial(object, "material", *material, model);
-        for (Surface& surface : model.surfaces) {
-            setSurfaceMaterial(model, surface, index);
-        }
+        setBodyMaterial(model, index, object.file() + ": " + object.fieldOf("material"));
     }
     if (const nlohmann::json* byName = object.member("materials")) {
         assignByName(object, *byName, model);

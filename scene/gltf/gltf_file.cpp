@@ -140,15 +140,18 @@ void checkExtensions(const GltfFile& file, const Json& document) {
     }
 }
 
-/// A note for each extension that is used and not read.
+/// A note for each extension that is used and not read, or read and not drawn.
 void noteExtensions(GltfFile& file, const Json& document) {
     const auto used = document.find("extensionsUsed");
     if (used == document.end() || !used->is_array()) {
         return;
     }
     for (const Json& name : *used) {
-        if (name.is_string() && !isKnown(name.get<std::string>())) {
+        const bool isNamed = name.is_string();
+        if (isNamed && !isKnown(name.get<std::string>())) {
             file.notes.push_back(file.path.string() + ": uses the extension " + shorten(name) + ", which is not read");
+        } else if (isNamed && isLookLeftOut(name.get<std::string>())) {
+            file.notes.push_back(file.path.string() + ": uses the extension " + shorten(name) + ", which is not drawn");
         }
     }
 }

@@ -234,7 +234,7 @@ private:
         const std::uint32_t surface = materials_.surface(mesh.primitives[primitive].material);
         const Surface& look = scene_.surfaces[surface];
         const bool needsTangents = look.normalTexture != none;
-        Mesh result = makeMesh(*read, materials_.texCoord(surface), needsTangents, look.uvTransform);
+        Mesh result = makeMesh(*read, materials_.texCoords(surface), needsTangents, look.normalUv);
         result.name = mesh.name;
         result.surface = surface;
         scene_.meshes.push_back(std::move(result));

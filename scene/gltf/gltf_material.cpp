@@ -112,26 +112,23 @@ std::uint32_t GltfMaterials::convert(const tinygltf::Material& source, const std
     surface.doubleSided = source.doubleSided;
     surface.normalScale =
         static_cast<float>(checkRange(file_, source.normalTexture.scale, -1e3, 1e3, field + ".normalTexture.scale"));
-    int texCoord = 0;
-    readTextures(source, extensions, field, surface, texCoord);
-    // Without blending, what is more than half transparent is not there.
-    surface.alphaMask = source.alphaMode == "MASK" || source.alphaMode == "BLEND";
-    if (source.alphaMode == "BLEND") {
-        scene_.notes.push_back(file_.path.string() + ": " + field +
-                               ".alphaMode is BLEND; what has an alpha below 0.5 is left out, the rest is opaque");
-    }
+    std::array<int, 2> texCoords{0, -1};
+    readTextures(source, extensions, field, surface, texCoords);
+    surface.alphaMode = source.alphaMode == "MASK"    ? AlphaMode::Mask
+                        : source.alphaMode == "BLEND" ? AlphaMode::Blend
+                                                      : AlphaMode::Opaque;
     surface.alphaCutoff =
         source.alphaMode == "MASK"
             ? static_cast<float>(checkRange(file_, source.alphaCutoff, 0, 1e3, field + ".alphaCutoff"))
             : 0.5f;
     readSubsurface(source, extensions, field, surface);
     scene_.surfaces.push_back(std::move(surface));
-    texCoords_.push_back(texCoord);
+    texCoords_.push_back(texCoords);
     return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);
 }
 
 void GltfMaterials::readTextures(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
-                                 const std::string& field, Surface& surface, int& texCoord) {
+                                 const std::string& field, Surface& surface, std::array<int, 2>& texCoords) {
     const auto& pbr = source.pbrMetallicRoughness;
     GltfTextureUse baseColor = extensions.specularGlossiness ? extensions.specularGlossiness->diffuseTexture
                                                              : useOf(file_, pbr.baseColorTexture,
@@ -155,19 +152,28 @@ void GltfMaterials::readTextures(const tinygltf::Material& source, const GltfMat
     if (emission.texture >= 0 && surface.emissionTexture == none) {
         surface.emission = glm::vec3(0);
     }
+    const std::array<std::pair<const GltfTextureUse&, TextureCoordinates&>, 5> uses{
+        {{baseColor, surface.baseColorUv},
+         {normal, surface.normalUv},
+         {metallicRoughness, surface.metallicRoughnessUv},
+         {thickness, surface.thicknessUv},
+         {emission, surface.emissionUv}}};
     bool first = true;
-    for (const GltfTextureUse* use : {&std::as_const(baseColor), &normal, &metallicRoughness, &thickness, &emission}) {
-        if (use->texture < 0) {
+    for (const auto& [use, coordinates] : uses) {
+        if (use.texture < 0) {
             continue;
         }
-        if (first) {
-            texCoord = use->texCoord;
-            surface.uvTransform = use->transform;
-            first = false;
-        } else if (use->texCoord != texCoord || use->transform != surface.uvTransform) {
-            scene_.notes.push_back(
-                file_.path.string() + ": " + use->field +
-                " has texture coordinates of its own; those of the material's first texture are used");
+        if (std::exchange(first, false)) {
+            texCoords[0] = use.texCoord;
+        } else if (use.texCoord != texCoords[0] && texCoords[1] < 0) {
+            texCoords[1] = use.texCoord;
+        }
+        coordinates.transform = use.transform;
+        coordinates.second = use.texCoord != texCoords[0];
+        if (coordinates.second && use.texCoord != texCoords[1]) {
+            scene_.notes.push_back(file_.path.string() + ": " + use.field + ".texCoord is " +
+                                   std::to_string(use.texCoord) + ", the material's third; " +
+                                   std::to_string(texCoords[1]) + " is used");
         }
     }
 }

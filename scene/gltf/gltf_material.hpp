@@ -3,6 +3,7 @@
 
 #include "scene/gltf/gltf_material_extensions.hpp"
 
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -15,13 +16,13 @@ public:
 
     /// The surface of a material; -1 is glTF's default material.
     std::uint32_t surface(int material);
-    /// The TEXCOORD set that a surface reads.
-    int texCoord(std::uint32_t surface) const { return texCoords_[surface]; }
+    /// The TEXCOORD sets that a surface reads as Vertex::uv and Vertex::secondUv; -1 = none.
+    const std::array<int, 2>& texCoords(std::uint32_t surface) const { return texCoords_[surface]; }
 
 private:
     std::uint32_t convert(const tinygltf::Material& source, const std::string& field);
     void readTextures(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
-                      const std::string& field, Surface& surface, int& texCoord);
+                      const std::string& field, Surface& surface, std::array<int, 2>& texCoords);
     void readSubsurface(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
                         const std::string& field, Surface& surface);
     /// The image of a texture; -1, with a note, where nothing that is read supplies one.
@@ -33,7 +34,7 @@ private:
     const GltfFile& file_;
     Scene& scene_;
     std::map<int, std::uint32_t> surfaces_;
-    std::vector<int> texCoords_;
+    std::vector<std::array<int, 2>> texCoords_;
     /// By where it is, sRGB and how it is sampled.
     std::map<std::tuple<std::string, bool, Wrap, Wrap, bool>, std::uint32_t> textures_;
     std::map<std::uint32_t, glm::vec4> means_;

@@ -121,6 +121,12 @@ GltfMaterialExtensions readMaterialExtensions(const GltfFile& file, const tinygl
     return result;
 }
 
+bool isLookLeftOut(std::string_view name) {
+    return std::ranges::any_of(materialExtensions, [name](const MaterialExtension& extension) {
+        return name == extension.name && extension.read == skip;
+    });
+}
+
 bool isMaterialExtension(std::string_view name) {
     return std::ranges::any_of(materialExtensions, [name](const auto& extension) { return name == extension.name; });
 }

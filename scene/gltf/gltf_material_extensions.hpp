@@ -36,5 +36,7 @@ GltfMaterialExtensions readMaterialExtensions(const GltfFile& file, const tinygl
 
 /// Whether a material extension is understood, or concerns only looks that this renderer does not have.
 bool isMaterialExtension(std::string_view name);
+/// Whether it concerns such a look: what has it is drawn without it.
+bool isLookLeftOut(std::string_view name);
 
 } // namespace nacre::scene

@@ -190,11 +190,13 @@ void applySkin(const GltfFile& file, int skin, std::span<const glm::mat4> nodeTr
     }
 }
 
-Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, const glm::mat3& uvTransform) {
+Mesh makeMesh(const GltfPrimitive& source, const std::array<int, 2>& texCoords, bool needsTangents,
+              const TextureCoordinates& normalUv) {
     const std::vector<float> positions = source.attribute("POSITION", 3);
     const std::vector<float> normals = source.attribute("NORMAL", 3);
     const std::vector<float> tangents = source.attribute("TANGENT", 4);
-    const std::vector<float> uvs = source.attribute("TEXCOORD_" + std::to_string(texCoord), 2);
+    const std::vector<float> uvs = source.attribute("TEXCOORD_" + std::to_string(texCoords[0]), 2);
+    const std::vector<float> secondUvs = source.attribute("TEXCOORD_" + std::to_string(texCoords[1]), 2);
     const std::vector<glm::vec4> colors = colorsOf(source);
     Mesh mesh;
     mesh.indices = source.indices;
@@ -211,6 +213,9 @@ Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, con
         if (!uvs.empty()) {
             vertex.uv = {uvs[i * 2], uvs[i * 2 + 1]};
         }
+        if (!secondUvs.empty()) {
+            vertex.secondUv = {secondUvs[i * 2], secondUvs[i * 2 + 1]};
+        }
         if (!colors.empty()) {
             vertex.color = vertexColor(colors[i]);
         }
@@ -221,7 +226,7 @@ Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, con
     }
     repairNormals(mesh);
     if (needsTangents && (tangents.empty() || normals.empty())) {
-        makeTangents(mesh, uvTransform);
+        makeTangents(mesh, normalUv);
     }
     return mesh;
 }

@@ -34,7 +34,9 @@ void applyMorphTargets(const GltfFile& file, int mesh, std::size_t primitive, st
 /// Moves positions and normals by the joints of a skin, whose nodes are at `nodeTransforms`.
 void applySkin(const GltfFile& file, int skin, std::span<const glm::mat4> nodeTransforms, GltfPrimitive& target);
 
-/// The mesh: checked, with normals, and tangents when `needsTangents`; texture coordinates from TEXCOORD_`texCoord`.
-Mesh makeMesh(const GltfPrimitive& source, int texCoord, bool needsTangents, const glm::mat3& uvTransform);
+/// The mesh: checked, with normals, and tangents when `needsTangents`; texture coordinates from the sets
+/// TEXCOORD_n that are asked for.
+Mesh makeMesh(const GltfPrimitive& source, const std::array<int, 2>& texCoords, bool needsTangents,
+              const TextureCoordinates& normalUv);
 
 } // namespace nacre::scene

@@ -43,7 +43,7 @@ void requireSound(const scene::Scene& scene, const scene::Mesh& mesh) {
         require(isFinite(vertex.position), "vertex.position");
         require(isFinite(vertex.normal), "vertex.normal");
         require(isFinite(vertex.tangent), "vertex.tangent");
-        require(isFinite(vertex.uv), "vertex.uv");
+        require(isFinite(vertex.uv) && isFinite(vertex.secondUv), "vertex.uv");
     }
 }
 
@@ -57,8 +57,11 @@ void requireSound(const scene::Scene& scene, const scene::Surface& surface) {
     require(std::isfinite(surface.metallic) && std::isfinite(surface.roughness) && std::isfinite(surface.specular) &&
                 std::isfinite(surface.normalScale) && std::isfinite(surface.thickness),
             "surface's numbers");
-    require(isFinite(surface.uvTransform[0]) && isFinite(surface.uvTransform[1]) && isFinite(surface.uvTransform[2]),
-            "surface.uvTransform");
+    for (const scene::TextureCoordinates& uv : {surface.baseColorUv, surface.normalUv, surface.metallicRoughnessUv,
+                                                surface.thicknessUv, surface.emissionUv}) {
+        require(isFinite(uv.transform[0]) && isFinite(uv.transform[1]) && isFinite(uv.transform[2]),
+                "surface's texture coordinates");
+    }
 }
 
 } // namespace

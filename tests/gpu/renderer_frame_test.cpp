@@ -23,7 +23,7 @@ Material wax(double variance, double translucency) {
     return material;
 }
 
-/// A translucent sphere over a ground, a box with holes beside it, a light of each kind.
+/// A translucent sphere over a ground, a box with holes beside it, glass before it, a light of each kind.
 scene::Scene makeScene() {
     scene::Scene scene = darkScene(3);
     scene.environment.intensity = 0.2f;
@@ -32,9 +32,13 @@ scene::Scene makeScene() {
     add(scene, square(4), glm::translate(glm::mat4(1), {0, 0, -0.6f}));
     add(scene, sphere(0.5f, 24)).material = 0;
     scene::Surface& holes = add(scene, box(glm::vec3(0.4f)), glm::translate(glm::mat4(1), {0.8f, 0, 0}));
-    holes.alphaMask = true;
+    holes.alphaMode = scene::AlphaMode::Mask;
     holes.baseColor.a = 0.4f;
     holes.alphaCutoff = 0.3f;
+    scene::Surface& glass = add(scene, sphere(0.3f, 8), glm::translate(glm::mat4(1), {-0.3f, 0.1f, 0.7f}));
+    glass.alphaMode = scene::AlphaMode::Blend;
+    glass.baseColor.a = 0.2f;
+    glass.doubleSided = true;
     scene.lights = {directional({0.3f, -0.5f, -1}, 2), spot({-1, 1, 2}, {0.5f, -0.5f, -1}, 0.05f),
                     point({0.2f, 0.3f, -0.5f}, 0.005f)};
     scene.lights[2].range = 0.5f;
@@ -75,6 +79,7 @@ State stateOf(int i) {
     scene.surfaces[1].emission = glm::vec3(0.02f * t);
     scene.surfaces[2].metallic = 0.15f * t;
     scene.surfaces[2].alphaCutoff = i == 4 ? 0.5f : 0.3f;
+    scene.surfaces[3].baseColor.a = 0.2f + 0.1f * t;
     scene.exposure = 1 + 0.1f * t;
     scene.environment.intensity = 0.2f + 0.05f * t;
     scene.environment.rotation = 0.5f * t;

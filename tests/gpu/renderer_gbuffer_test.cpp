@@ -106,7 +106,7 @@ TEST_F(GBuffer, TexturesAreSrgbTransformedAndMultiplied) {
     EXPECT_NEAR(at(albedo, 40, 45, 0), 0.2514f, 0.01f);
     EXPECT_NEAR(at(albedo, 40, 45, 1), 0.5029f, 0.01f);
     EXPECT_NEAR(at(albedo, 120, 45, 1), 0, 0.01f);
-    scene.surfaces[0].uvTransform[2] = {0.5f, 0, 1};
+    scene.surfaces[0].baseColorUv.transform[2] = {0.5f, 0, 1};
     albedo = render(scene, plainSettings()).read(Output::Albedo);
     EXPECT_NEAR(at(albedo, 40, 45, 1), 0, 0.01f);
     EXPECT_NEAR(at(albedo, 120, 45, 1), 0.5029f, 0.01f);
@@ -143,6 +143,35 @@ TEST_F(GBuffer, VertexColorsEmissionAndWrapsAreSeen) {
     }
     for (const std::uint32_t x : {55u, 75u, 85u, 105u}) {
         EXPECT_NEAR(at(radiance, x, 45), 0, 1e-3f) << x;
+    }
+}
+
+TEST_F(GBuffer, EveryTextureHasCoordinatesOfItsOwn) {
+    scene::Scene scene = darkScene(2);
+    scene::Mesh mesh = square(2.2f);
+    for (scene::Vertex& vertex : mesh.vertices) {
+        vertex.secondUv = {vertex.uv.y, vertex.uv.x};
+    }
+    scene::Surface& surface = add(scene, std::move(mesh));
+    surface.baseColor = {1, 1, 1, 1};
+    surface.specular = 0;
+    surface.emission = {1, 1, 1};
+    surface.baseColorTexture = surface.emissionTexture = surface.metallicRoughnessTexture = 0;
+    surface.emissionUv.second = true;
+    surface.metallicRoughnessUv.transform[0].x = 2;
+    surface.metallic = 1;
+    // Left half white, right half black.
+    scene.textures.push_back(
+        {.name = "halves", .width = 2, .height = 1, .nearest = true, .pixels = {255, 255, 255, 255, 0, 0, 0, 255}});
+    const renderer::Offscreen renderer = render(scene, plainSettings());
+    const Pixels albedo = renderer.read(Output::Albedo);
+    const Pixels radiance = renderer.read(Output::Radiance);
+    // Metal, which has no diffuse albedo, is left of a quarter and again right of the middle.
+    for (const auto& [x, color, emission] : {std::tuple(15u, 0.0f, 1.0f), std::tuple(65u, 1.0f, 1.0f),
+                                             std::tuple(95u, 0.0f, 1.0f), std::tuple(145u, 0.0f, 1.0f)}) {
+        EXPECT_NEAR(at(albedo, x, 20), color, 1e-3f) << x;
+        EXPECT_NEAR(at(radiance, x, 20), emission, 1e-3f) << x;     // v = 0.35
+        EXPECT_NEAR(at(radiance, x, 70), 1 - emission, 1e-3f) << x; // v = 0.66
     }
 }
 

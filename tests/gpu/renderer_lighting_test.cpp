@@ -141,7 +141,7 @@ TEST_F(Lighting, HolesOfAnAlphaMaskLetLightThrough) {
     add(scene, square(3));
     scene::Surface& blind = add(scene, square(0.4f), glm::translate(glm::mat4(1), {0, 0, 0.4f}));
     blind.doubleSided = true;
-    blind.alphaMask = true;
+    blind.alphaMode = scene::AlphaMode::Mask;
     blind.baseColorTexture = 0;
     // Left half opaque, right half a hole.
     scene.textures.push_back(

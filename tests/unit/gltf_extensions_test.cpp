@@ -185,7 +185,7 @@ TEST(GltfExtensions, TransformTextureCoordinates) {
     builder.json["textures"] = {{{"source", 0}}};
     builder.json["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR"
                                        "42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg=="}}};
-    const glm::mat3 uv = builder.load().surfaces.at(0).uvTransform;
+    const glm::mat3 uv = builder.load().surfaces.at(0).baseColorUv.transform;
     // Counter-clockwise rotation about the origin with v downwards, after the scale and before the offset.
     expectVec3(uv * glm::vec3(1, 0, 1), {0.25f, 0.5f - 2, 1});
     expectVec3(uv * glm::vec3(0, 1, 1), {0.25f + 3, 0.5f, 1});

@@ -1,4 +1,5 @@
 // What a glTF file means: colours of vertices, samplers, emission, copies of a node, and notes about what is left out.
+#include "scene/blending.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -116,6 +117,14 @@ TEST(GltfMeaning, ATextureWithoutAnImageIsLeftOutWithANote) {
     EXPECT_NE(builder.error().find("requires the extension \"KHR_texture_basisu\""), std::string::npos);
 }
 
+TEST(GltfMeaning, ALookThatIsNotDrawnIsNoted) {
+    GltfBuilder builder = texturedSquare({{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}});
+    builder.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+    const Scene scene = builder.load();
+    EXPECT_TRUE(hasNote(scene, "uses the extension \"KHR_materials_clearcoat\", which is not drawn"));
+    EXPECT_EQ(scene.notes.size(), 1u);
+}
+
 TEST(GltfMeaning, WebpTakesTheExtensionsImage) {
     GltfBuilder builder = texturedSquare({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     // One pixel, lossless.
@@ -129,13 +138,70 @@ TEST(GltfMeaning, WebpTakesTheExtensionsImage) {
     EXPECT_EQ(texture.width, 1u);
 }
 
-TEST(GltfMeaning, BlendingIsACutWithANote) {
-    const Scene scene =
-        texturedSquare({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.05}}}}})
-            .load();
-    EXPECT_TRUE(scene.surfaces.at(0).alphaMask);
-    EXPECT_FLOAT_EQ(scene.surfaces.at(0).alphaCutoff, 0.5f);
-    EXPECT_TRUE(hasNote(scene, "materials[0].alphaMode is BLEND"));
+Scene settled(const GltfBuilder& builder) {
+    GltfBuilder copy = builder;
+    Scene scene = copy.load();
+    settleBlending(scene, "test.glb");
+    return scene;
+}
+
+/// What becomes of a blended material with a base colour of this alpha.
+AlphaMode modeOf(double alpha, const Json& extensions = Json::object()) {
+    const Scene scene = settled(texturedSquare({{"alphaMode", "BLEND"},
+                                                {"extensions", extensions},
+                                                {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, alpha}}}}}));
+    EXPECT_EQ(hasNote(scene, "scatters light and is not blended"), scene.surfaces.at(0).material != none);
+    return scene.surfaces.at(0).alphaMode;
+}
+
+TEST(GltfMeaning, WhatIsSeeThroughIsBlendedUnlessItScatters) {
+    EXPECT_EQ(modeOf(0.05), AlphaMode::Blend);
+    EXPECT_EQ(modeOf(1), AlphaMode::Opaque);
+    const Json leaf = {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.5}}}};
+    EXPECT_EQ(modeOf(0.75, leaf), AlphaMode::Mask);
+}
+
+TEST(GltfMeaning, AlphaOfVerticesAndTexturesIsBlended) {
+    GltfBuilder builder = texturedSquare({{"alphaMode", "BLEND"}});
+    const auto colors = builder.addFloats({1, 1, 1, 1, 1, 1, 1, 0.5f, 1, 1, 1, 1, 1, 1, 1, 1}, "VEC4", 4);
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colors;
+    EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Blend);
+    builder =
+        texturedSquare({{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    builder.json["images"][0]["uri"] =
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP4z8DwHwAFAAH/VscvDQAAAABJRU5ErkJggg==";
+    EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Opaque);
+    // The same, with half the alpha.
+    builder.json["images"][0]["uri"] =
+        "data:image/png;base64,"
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP4z8DQAAAEgQGA8wvcoAAAAABJRU5ErkJggg==";
+    EXPECT_EQ(settled(builder).surfaces.at(0).alphaMode, AlphaMode::Blend);
+}
+
+TEST(GltfMeaning, EveryTextureKeepsItsTransformAndItsSet) {
+    const auto tiled = [](int texCoord, double scale) {
+        return Json{{"index", 0},
+                    {"texCoord", texCoord},
+                    {"extensions", {{"KHR_texture_transform", {{"scale", {scale, scale}}}}}}};
+    };
+    GltfBuilder builder = texturedSquare({{"pbrMetallicRoughness", {{"baseColorTexture", tiled(1, 1)}}},
+                                          {"normalTexture", tiled(2, 4)},
+                                          {"emissiveTexture", tiled(0, 2)}});
+    const auto attributes = [&]() -> Json& { return builder.json["meshes"][0]["primitives"][0]["attributes"]; };
+    attributes()["TEXCOORD_1"] = builder.addFloats({1, 0, 1, 0, 1, 0, 1, 0}, "VEC2", 2);
+    attributes()["TEXCOORD_2"] = builder.addFloats({2, 3, 2, 3, 2, 3, 2, 3}, "VEC2", 2);
+    const Scene scene = builder.load();
+    const Surface& surface = scene.surfaces.at(0);
+    const Vertex& vertex = scene.meshes.at(0).vertices.at(0);
+    EXPECT_EQ(vertex.uv, glm::vec2(1, 0));
+    EXPECT_EQ(vertex.secondUv, glm::vec2(2, 3));
+    EXPECT_FALSE(surface.baseColorUv.second);
+    EXPECT_EQ(surface.baseColorUv.transform, glm::mat3(1));
+    EXPECT_TRUE(surface.normalUv.second);
+    EXPECT_EQ(surface.normalUv.transform[1].y, 4);
+    EXPECT_EQ(surface.emissionUv.transform[0].x, 2);
+    EXPECT_TRUE(hasNote(scene, "materials[0].emissiveTexture.texCoord is 0, the material's third; 2 is used"));
 }
 
 TEST(GltfMeaning, InstancingPlacesANodeManyTimes) {

@@ -284,7 +284,9 @@ TEST(Isolation, BringsEveryMemberAcross) {
         surface.name = "surface";
         surface.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
         surface.baseColorTexture = 0;
-        surface.alphaMask = surface.doubleSided = true;
+        surface.alphaMode = AlphaMode::Blend;
+        surface.doubleSided = true;
+        surface.normalUv = {glm::mat3(2), true};
         scene.surfaces.push_back(surface);
         scene.instances.push_back({"instance", 0, glm::mat4(2)});
         Light light;

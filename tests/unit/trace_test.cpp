@@ -89,7 +89,7 @@ TEST(GeometryTest, MaskedTexelsAreHoles) {
     texture.pixels = {255, 255, 255, 0, 255, 255, 255, 255};
     scene.textures.push_back(texture);
     scene.surfaces[surface].baseColorTexture = 0;
-    scene.surfaces[surface].alphaMask = true;
+    scene.surfaces[surface].alphaMode = scene::AlphaMode::Mask;
     scene::Mesh mesh = rectangle({-1, -1}, {1, 1}, 0);
     for (scene::Vertex& vertex : mesh.vertices) {
         vertex.uv = {0.5f + 0.5f * vertex.position.x, 0.5f};

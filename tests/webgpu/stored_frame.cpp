@@ -199,7 +199,7 @@ void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const Gpu
     check(nacreFillLights(&info, &messages, lights.size(), lights.data()));
     nlohmann::json call =
         callJson("transmit", NACRE_TECHNIQUE_TRANSMIT, areaOf(info.view, info.depth.extent), parameters, lights);
-    call["constants"]["generalLights"] = nacreNeedsGeneralLights(&info);
+    call["constants"]["generalLights"] = nacreGetTransmitConstants(&info) >> 1 & 1u;
     call["expected"]["transmitted"] = imageJson(gpu, "transmitted", transmitted);
     call["expected"]["thicknessOut"] = imageJson(gpu, "thicknessOut", thickness);
     json_["calls"].push_back(call);

@@ -1,0 +1,359 @@
+#!/usr/bin/env python3
+"""Makes scenes/portrait.glb: a head with skin, eyes that have a white, an iris and a clear cornea, lashes and brows.
+
+Usage: portrait.py [OUTPUT]. Needs Python 3 and nothing beside its standard library. Lengths are in mm here, and in metres in the
+file. The cornea and the upper lashes are blended, the lower lashes and the brows are masked.
+"""
+import json
+import math
+import os
+import random
+import struct
+import sys
+import zlib
+
+HEAD = (74.0, 112.0, 92.0)  # half axes
+EYE = (31.0, 4.0, 69.0)  # the centre of the right one (on the left in the picture: x < 0)
+BALL, IRIS, PUPIL = 12.0, 5.9, 2.0  # radii
+CORNEA = 7.8  # radius of curvature
+LID = 12.9  # radius of the lids around the ball's centre
+
+
+def add(a, b, scale=1.0):
+    return tuple(x + scale * y for x, y in zip(a, b))
+
+
+def normalize(v):
+    length = math.sqrt(sum(c * c for c in v)) or 1.0
+    return tuple(c / length for c in v)
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+class Mesh:
+    def __init__(self):
+        self.positions, self.uvs, self.colors, self.indices = [], [], [], []
+
+    def grid(self, columns, rows, place, uv=lambda s, t: (s, t), color=None, wraps=False):
+        """place(s, t) for s and t from 0 to 1; faces look to the side from which s grows to the right and t upwards."""
+        first = len(self.positions)
+        for j in range(rows + 1):
+            for i in range(columns + 1):
+                s, t = i / columns, j / rows
+                self.positions.append(place(s % 1.0 if wraps else s, t))
+                self.uvs.append(uv(s, t))
+                self.colors.append(color(self.positions[-1]) if color else (255, 255, 255))
+        for j in range(rows):
+            for i in range(columns):
+                a = first + j * (columns + 1) + i
+                b = a + columns + 1
+                self.indices += [a, a + 1, b + 1, a, b + 1, b]
+
+    def normals(self):
+        sums = {}
+        key = lambda p: tuple(round(c, 4) for c in p)
+        for i in range(0, len(self.indices), 3):
+            a, b, c = (self.positions[k] for k in self.indices[i:i + 3])
+            face = cross(add(b, a, -1), add(c, a, -1))
+            for p in (a, b, c):
+                sums[key(p)] = add(sums.get(key(p), (0, 0, 0)), face)
+        return [normalize(sums.get(key(p), (0, 0, 1))) for p in self.positions]
+
+
+def bump(x, y, cx, cy, rx, ry):
+    return math.exp(-(((x - cx) / rx)**2 + ((y - cy) / ry)**2))
+
+
+def relief(x, y):
+    """What the face adds to the ellipsoid, along the way out."""
+    side = abs(x)
+    value = -12.0 * bump(side, y, EYE[0] - 1, EYE[1], 19, 15)  # sockets
+    value += 5.0 * bump(side, y, 26, 21, 24, 8)  # brow
+    ridge = min(max((20.0 - y) / 52.0, 0.0), 1.0)  # from the root of the nose to its tip
+    value += (4.0 + 19.0 * ridge**1.4) * bump(x, 0, 0, 0, 8.0 + 3.0 * ridge, 1) * (1 if y > -32 else math.exp(-((y + 32) / 5)**2)) * (
+        1 / (1 + math.exp((y - 18) / 4)))
+    value += 7.0 * bump(side, y, 10.5, -30, 6.5, 6)  # wings
+    value += 5.0 * bump(side, y, 42, -22, 18, 16)  # cheeks
+    value += 5.0 * bump(x, y, 0, -51, 20, 5) + 5.5 * bump(x, y, 0, -61, 16, 5)  # lips
+    value -= 5.0 * bump(x, y, 0, -56, 22, 2.4)  # between them
+    value += 7.0 * bump(x, y, 0, -88, 20, 14)  # chin
+    value -= 2.0 * bump(x, y, 0, -43, 3, 6)
+    return value
+
+
+def face(s, t):
+    # More of the grid where the face is.
+    a = 2 * math.pi * s
+    longitude = a + 0.75 * math.sin(a)  # 0 at the back
+    b = math.pi * (t - 0.5)
+    latitude = b - 0.25 * math.sin(2 * b)
+    d = (-math.sin(longitude) * math.cos(latitude), math.sin(latitude), -math.cos(longitude) * math.cos(latitude))
+    p = tuple(c * h for c, h in zip(d, HEAD))
+    if p[1] < 0:  # the jaw is narrower
+        p = (p[0] * (1 - 0.22 * (p[1] / HEAD[1])**2), p[1], p[2])
+    front = 1 / (1 + math.exp(-(p[2] - 25) / 8))
+    return add(p, normalize((d[0] * 0.6, d[1] * 0.4, d[2])), relief(p[0], p[1]) * front)
+
+
+def skin_color(p):
+    x, y, z = p
+    front = 1.0 if z > 20 else 0.0
+    red = 0.75 * front * (bump(x, y, 0, -51.5, 20, 4) + bump(x, y, 0, -60.5, 16, 4.5)) * (1 if abs(x) < 23 else 0.3)
+    red += 0.25 * front * (bump(abs(x), y, 40, -22, 16, 14) + bump(x, y, 0, -30, 12, 9))
+    red = min(red, 0.9)
+    return tuple(round(255 * c) for c in (1 - 0.12 * red, 1 - 0.5 * red, 1 - 0.42 * red))
+
+
+def on_ball(radius, u, v):
+    """u to the right, v up, in radians."""
+    return (radius * math.sin(u) * math.cos(v), radius * math.sin(v), radius * math.cos(u) * math.cos(v))
+
+
+def lid_edge(u, upper):
+    """Of the opening, in radians."""
+    half = math.radians(53)
+    open_share = max(1 - (u / half)**2, 0.0)
+    return math.radians(23) * open_share**0.75 if upper else -math.radians(26) * open_share**0.8
+
+
+def lid(upper):
+    def place(s, t):
+        u = math.radians(90) * (2 * s - 1)
+        edge = lid_edge(u, upper)
+        far = math.radians(78 if upper else -78)
+        v = edge + (far - edge) * max(t - 0.12, 0) / 0.88
+        # Rounded at the edge; outwards it falls back behind the face.
+        round_edge = min(t / 0.12, 1.0)
+        radius = BALL + 0.15 + (LID - BALL) * math.sin(0.5 * math.pi * round_edge) + 0.9 * max(t - 0.12, 0)
+        if upper:
+            radius -= 0.9 * math.exp(-((t - 0.42) / 0.07)**2)  # the fold
+        return on_ball(radius, u, v)
+    return place
+
+
+def lash_strip(upper, length):
+    def place(s, t):
+        u = math.radians(46) * (2 * s - 1)
+        edge = lid_edge(u, upper)
+        root = on_ball(LID - 0.1, u, edge + math.radians(1.5 if upper else -1.5))
+        out = normalize(on_ball(1, u * 1.25, edge))
+        up = (0, 1 if upper else -1, 0)
+        reach = length * t * (1 - 0.35 * (2 * s - 1)**2)
+        curl = 0.75 * t if upper else 0.5 * t
+        return add(add(root, out, reach * (1 - 0.45 * t)), up, reach * curl)
+    return place
+
+
+def brow(side):
+    def place(s, t):
+        x = side * (13 + 34 * s)
+        y = EYE[1] + 17 + 7 * math.sin(math.pi * min(s * 1.15, 1) * 0.62) + (t - 0.5) * 9 * (1 - 0.6 * s**2)
+        p = (x / HEAD[0], y / HEAD[1])
+        z = HEAD[2] * math.sqrt(max(1 - p[0]**2 - p[1]**2, 0.05))
+        n = normalize((x / HEAD[0]**2, y / HEAD[1]**2, z / HEAD[2]**2))
+        return add((x, y, z), normalize((n[0] * 0.6, n[1] * 0.4, n[2])), relief(x, y) + 0.8)
+    return place
+
+
+def png(width, height, pixel):
+    """RGBA of pixel(x, y), each 0 to 1, in sRGB."""
+    rows = b"".join(b"\0" + bytes(min(max(round(255 * c), 0), 255) for x in range(width) for c in pixel(x, y)) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+
+
+def iris_texture(size=128):
+    dice = random.Random(3)
+    rays = [(dice.random(), dice.random()) for _ in range(90)]
+
+    def pixel(x, y):
+        dx, dy = (x + 0.5) / size * 2 - 1, (y + 0.5) / size * 2 - 1
+        radius, angle = math.hypot(dx, dy), math.atan2(dy, dx) / (2 * math.pi) % 1
+        at = angle * len(rays)
+        i, f = int(at) % len(rays), at % 1
+        ray = rays[i][0] * (1 - f) + rays[(i + 1) % len(rays)][0] * f
+        ring = 0.5 + 0.5 * math.sin(9 * radius + 5 * rays[i][1])
+        light = 0.55 + 0.5 * ray * (0.6 + 0.4 * ring)
+        color = [light * c for c in (0.34, 0.47, 0.58)]
+        amber = max(0.0, 1 - abs(radius - 0.42) / 0.16)
+        color = [c + amber * light * a for c, a in zip(color, (0.16, 0.06, -0.08))]
+        limbus = min(max((radius - 0.80) / 0.16, 0), 1)
+        pupil = min(max((radius - PUPIL / IRIS) / 0.04, 0), 1)
+        return [c * (1 - 0.8 * limbus) * pupil for c in color] + [1]
+    return png(size, size, pixel)
+
+
+def sclera_texture(size=96):
+    dice = random.Random(5)
+    veins = [(dice.random(), dice.random(), 0.012 * (0.5 + dice.random())) for _ in range(26)]
+
+    def pixel(x, y):
+        s, t = (x + 0.5) / size, (y + 0.5) / size  # around, and from the iris back
+        vein = 0.0
+        for angle, phase, width in veins:
+            off = abs((s - angle - 0.012 * math.sin(25 * t + 6.3 * phase) + 0.5) % 1 - 0.5)
+            vein = max(vein, (1 - off / width) * min(max((t - 0.10) * 6, 0), 1) if off < width else 0)
+        limbus = max(0.0, 1 - t / 0.05)
+        red = 0.22 * vein + 0.10 * min(max(t - 0.15, 0) * 3, 1)
+        return [0.93 * (1 - 0.35 * limbus), 0.90 * (1 - red) * (1 - 0.25 * limbus), 0.88 * (1 - red) * (1 - 0.2 * limbus), 1]
+    return png(size, size, pixel)
+
+
+def hair_texture(width, height, hairs, seed, thickness, lean):
+    dice = random.Random(seed)
+    strands = [(dice.random(), lean * (0.6 + 0.8 * dice.random()) * dice.choice((1, 1, -0.3)), 0.7 + 0.3 * dice.random()) for _ in range(hairs)]
+
+    def pixel(x, y):
+        s, t = (x + 0.5) / width, 1 - (y + 0.5) / height  # t from the root up
+        alpha = 0.0
+        for root, slant, length in strands:
+            if t < length:
+                off = abs((s - root - slant * t * t + 0.5) % 1 - 0.5) * width
+                thick = thickness * (1 - t / length)**0.6
+                alpha = max(alpha, min(max(thick + 0.5 - off, 0), 1))
+        return [0.09, 0.06, 0.05, alpha]
+    return png(width, height, pixel)
+
+
+class File:
+    """Binary glTF that is being written."""
+
+    def __init__(self):
+        self.bytes = b""
+        self.json = {"asset": {"version": "2.0", "generator": "Nacre, scripts/portrait.py"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [],
+                     "meshes": [], "materials": [], "textures": [], "images": [], "samplers": [{"wrapS": 10497, "wrapT": 33071}],
+                     "accessors": [], "bufferViews": []}
+
+    def view(self, data, target=None):
+        self.bytes += b"\0" * (-len(self.bytes) % 4)
+        view = {"buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data)}
+        if target:
+            view["target"] = target
+        self.bytes += data
+        self.json["bufferViews"].append(view)
+        return len(self.json["bufferViews"]) - 1
+
+    def accessor(self, data, component, kind, count, target=34962, **more):
+        self.json["accessors"].append({"bufferView": self.view(data, target), "componentType": component, "type": kind, "count": count, **more})
+        return len(self.json["accessors"]) - 1
+
+    def texture(self, image):
+        self.json["images"].append({"mimeType": "image/png", "bufferView": self.view(image)})
+        self.json["textures"].append({"source": len(self.json["images"]) - 1, "sampler": 0})
+        return {"index": len(self.json["textures"]) - 1}
+
+    def material(self, name, color, roughness, texture=None, **more):
+        pbr = {"baseColorFactor": color, "metallicFactor": 0, "roughnessFactor": roughness}
+        if texture:
+            pbr["baseColorTexture"] = texture
+        self.json["materials"].append({"name": name, "pbrMetallicRoughness": pbr, **more})
+        return len(self.json["materials"]) - 1
+
+    def mesh(self, name, mesh, material):
+        metres = [add((0, 0, 0), p, 0.001) for p in mesh.positions]
+        count = len(metres)
+        floats = lambda rows: b"".join(struct.pack("<%df" % len(row), *row) for row in rows)
+        low, high = ([f(p[i] for p in metres) for i in range(3)] for f in (min, max))
+        bytes_of_normals = b"".join(struct.pack("<3bx", *(round(127 * c) for c in n)) for n in mesh.normals())
+        attributes = {"POSITION": self.accessor(floats(metres), 5126, "VEC3", count, min=low, max=high),
+                      "NORMAL": self.accessor(bytes_of_normals, 5120, "VEC3", count, normalized=True)}
+        if "baseColorTexture" in self.json["materials"][material]["pbrMetallicRoughness"]:
+            attributes["TEXCOORD_0"] = self.accessor(floats(mesh.uvs), 5126, "VEC2", count)
+        self.json["bufferViews"][self.json["accessors"][attributes["NORMAL"]]["bufferView"]]["byteStride"] = 4
+        if any(c != (255, 255, 255) for c in mesh.colors):
+            data = b"".join(struct.pack("<4B", *c, 255) for c in mesh.colors)
+            attributes["COLOR_0"] = self.accessor(data, 5121, "VEC4", count, normalized=True)
+        indices = self.accessor(b"".join(struct.pack("<H", i) for i in mesh.indices), 5123, "SCALAR", len(mesh.indices), 34963)
+        self.json["meshes"].append({"name": name, "primitives": [{"attributes": attributes, "indices": indices, "material": material}]})
+        return len(self.json["meshes"]) - 1
+
+    def node(self, name, mesh, place=(0, 0, 0), mirrored=False):
+        node = {"name": name, "mesh": mesh, "translation": [0.001 * c for c in place]}
+        if mirrored:
+            node["scale"] = [-1, 1, 1]
+        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]))
+        self.json["nodes"].append(node)
+
+    def write(self, path):
+        self.json["buffers"] = [{"byteLength": len(self.bytes)}]
+        self.json["extensionsUsed"] = self.json["extensionsRequired"] = ["KHR_mesh_quantization"]
+        text = json.dumps(self.json, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        self.bytes += b"\0" * (-len(self.bytes) % 4)
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(self.bytes), 0x004E4942) + self.bytes
+        with open(path, "wb") as file:
+            file.write(struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks)
+
+
+def make(path):
+    file = File()
+    skin = file.material("skin", [0.8, 0.6, 0.5, 1], 0.5)
+    sclera = file.material("sclera", [1, 1, 1, 1], 0.15, file.texture(sclera_texture()))
+    iris = file.material("iris", [1, 1, 1, 1], 0.6, file.texture(iris_texture()))
+    cornea = file.material("cornea", [0.1, 0.1, 0.1, 0.04], 0.06, alphaMode="BLEND")
+    lashes = file.material("upper lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(128, 64, 26, 7, 1.5, 0.16)), alphaMode="BLEND", doubleSided=True)
+    lower = file.material("lower lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(128, 64, 14, 11, 1.6, 0.12)), alphaMode="MASK", alphaCutoff=0.4,
+                          doubleSided=True)
+    brows = file.material("brows", [1, 1, 1, 1], 0.7, file.texture(hair_texture(256, 48, 110, 13, 1.2, 0.14)), alphaMode="MASK", alphaCutoff=0.4,
+                          doubleSided=True)
+
+    head = Mesh()
+    head.grid(80, 80, face, color=skin_color, wraps=True)
+    lids = Mesh()
+    lids.grid(40, 16, lid(True))
+    lower_lid = lid(False)
+    lids.grid(40, 16, lambda s, t: lower_lid(1 - s, t))  # turned, so that it looks outwards
+
+    white = Mesh()
+    rim = math.asin(IRIS / BALL)
+
+    def ball(s, t):
+        angle, polar = 2 * math.pi * s, math.pi - (math.pi - rim) * t
+        return (BALL * math.sin(polar) * math.cos(angle), BALL * math.sin(polar) * math.sin(angle), BALL * math.cos(polar))
+    white.grid(40, 20, ball, uv=lambda s, t: (s, 1 - t), wraps=True)
+
+    front = math.sqrt(BALL**2 - IRIS**2)
+    disc = Mesh()
+
+    def iris_place(s, t):
+        angle, radius = 2 * math.pi * s, IRIS * (1 - t)
+        depth = 1.0 * min((IRIS - radius) / (IRIS - PUPIL), 1) if radius > PUPIL else 1.0
+        return (radius * math.cos(angle), radius * math.sin(angle), front - 0.15 - depth)
+    disc.grid(32, 8, iris_place, wraps=True)
+    disc.uvs = [(0.5 + 0.5 * p[0] / IRIS, 0.5 - 0.5 * p[1] / IRIS) for p in disc.positions]
+
+    dome = Mesh()
+    center = front - math.sqrt(CORNEA**2 - (IRIS + 0.25)**2)
+
+    def cornea_place(s, t):
+        angle, polar = 2 * math.pi * s, math.asin((IRIS + 0.25) / CORNEA) * (1 - t)
+        return (CORNEA * math.sin(polar) * math.cos(angle), CORNEA * math.sin(polar) * math.sin(angle), center + CORNEA * math.cos(polar))
+    dome.grid(32, 10, cornea_place, wraps=True)
+
+    upper_lashes, lower_lashes = Mesh(), Mesh()
+    upper_lashes.grid(32, 6, lash_strip(True, 8.5), uv=lambda s, t: (2.5 * s, 1 - t))
+    lower_lashes.grid(32, 4, lash_strip(False, 4.5), uv=lambda s, t: (2.5 * s, 1 - t))
+
+    file.node("head", file.mesh("head", head, skin))
+    parts = {"lids": (lids, skin), "eye": (white, sclera), "iris": (disc, iris), "cornea": (dome, cornea), "upper lashes": (upper_lashes, lashes),
+             "lower lashes": (lower_lashes, lower)}
+    for name, (mesh, material) in parts.items():
+        index = file.mesh(name, mesh, material)
+        for side in (-1, 1):
+            file.node(("right " if side < 0 else "left ") + name, index, (side * EYE[0], EYE[1], EYE[2]), mirrored=side < 0)
+    hairs = Mesh()
+    hairs.grid(24, 4, brow(1), uv=lambda s, t: (1.0 * s, 1 - t))
+    index = file.mesh("brow", hairs, brows)
+    for side in (-1, 1):
+        file.node(("right " if side < 0 else "left ") + "brow", index, mirrored=side < 0)
+    file.write(path)
+
+
+if __name__ == "__main__":
+    make(sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + "/scenes/portrait.glb")
