@@ -134,11 +134,11 @@ Scene makeScene(const SceneOptions& options) {
         throw UsageError("--time needs a scene with an animation, and the gallery has none");
     }
     Scene scene = options.input.empty() ? scene::makeGallery() : scene::load(options.input, options.time);
-    for (const std::string& note : std::set(scene.notes.begin(), scene.notes.end())) {
-        std::cerr << "nacre: note: " << printable(note) << '\n';
-    }
     if (material) {
         scene::assignMaterial(scene, *material);
+    }
+    for (const std::string& note : std::set(scene.notes.begin(), scene.notes.end())) {
+        std::cerr << "nacre: note: " << printable(note) << '\n';
     }
     chooseLights(options, scene);
     return scene;

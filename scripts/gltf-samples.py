@@ -5,7 +5,6 @@ Usage: gltf-samples.py NACRE FOLDER... > table. NACRE is the command to run; eve
 once, small and without the effect. Exits with 1 where a file is silent: neither a picture nor a sentence. Needs Python 3 and
 nothing beside its standard library.
 """
-import json
 import os
 import subprocess
 import sys
@@ -22,13 +21,11 @@ def samples(folder):
 
 def draw(nacre, file, work):
     """What becomes of the file, and what is said about it."""
-    report = work + "/report.json"
-    command = [nacre, "render", file, "--size", "32x18", "--shadow-map-size", "64", "--no-scatter", "--no-transmit", "--output", work + "/p.png", "--json",
-               report]
+    command = [nacre, "render", file, "--size", "32x18", "--shadow-map-size", "64", "--no-scatter", "--no-transmit", "--output", work + "/p.png"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     if done.returncode == 0:
-        with open(report) as text:
-            notes = json.load(text).get("notes", [])
+        prefix = "nacre: note: "
+        notes = [line.removeprefix(prefix) for line in done.stderr.splitlines() if line.startswith(prefix)]
         return ("drawn, noted" if notes else "drawn"), notes
     says = [line.removeprefix("nacre: ") for line in done.stderr.splitlines() if line.startswith("nacre: ") and "rendering" not in line]
     return ("refused" if done.returncode in (1, 2) and says else "SILENT"), says[-1:]
