@@ -252,7 +252,7 @@ TEST_F(Frames, RefuseWhatTheyWereNotMadeFor) {
     refused([&](renderer::Frame& frame) { frame.setLights(std::vector(4, scene.lights[0])); }, "3 lights");
     refused([&](renderer::Frame& frame) { frame.setLights(std::vector(3, scene.lights[2])); }, "18");
     refused([&](renderer::Frame& frame) { frame.setMaterials({}); }, "1 materials");
-    refused([&](renderer::Frame& frame) { frame.setSurfaces({}); }, "3 surfaces");
+    refused([&](renderer::Frame& frame) { frame.setSurfaces({}); }, "4 surfaces");
     std::vector<scene::Surface> surfaces = scene.surfaces;
     surfaces[1].name = "ball";
     surfaces[1].doubleSided = true;
