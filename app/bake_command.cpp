@@ -225,6 +225,7 @@ void bakeThickness(const BakeOptions& options) {
         const Progress progress("loading " + sceneName(options));
         return makeScene(options);
     }();
+    printNotes(scene);
     requireInputsKept(options, scene, {options.output, options.json});
     const std::uint32_t surface = chooseSurface(options, scene);
     const Material* const material = chooseMaterial(options, scene, surface);

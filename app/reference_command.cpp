@@ -141,6 +141,7 @@ void compute(ReferenceOptions options) {
         const Progress progress("loading " + sceneName(options));
         return makeScene(options);
     }();
+    printNotes(scene);
     requireInputsKept(options, scene, {options.output, options.json});
     const scene::Camera camera = makeCamera(options, scene);
     runInterruptibly([&] {

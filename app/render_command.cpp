@@ -84,7 +84,9 @@ void render(const RenderOptions& options) {
     }
     if (options.json != "-") {
         summarise(options, device.description(), frame);
+        std::cout.flush();
     }
+    printNotes(scene);
     failOnValidation(device.validationMessages());
 }
 

@@ -137,11 +137,16 @@ Scene makeScene(const SceneOptions& options) {
     if (material) {
         scene::assignMaterial(scene, *material);
     }
-    for (const std::string& note : std::set(scene.notes.begin(), scene.notes.end())) {
-        std::cerr << "nacre: note: " << printable(note) << '\n';
-    }
+    const std::set notes(scene.notes.begin(), scene.notes.end());
+    scene.notes.assign(notes.begin(), notes.end());
     chooseLights(options, scene);
     return scene;
+}
+
+void printNotes(const Scene& scene) {
+    for (const std::string& note : scene.notes) {
+        std::cerr << "nacre: note: " << printable(note) << '\n';
+    }
 }
 
 void requireInputsKept(const SceneOptions& options, const Scene& scene, std::vector<std::filesystem::path> outputs) {

@@ -9,10 +9,12 @@ namespace nacre::app {
 /// "gallery", or the file's name.
 std::string sceneName(const SceneOptions& options);
 
-/// Loads the scene or builds the gallery, says on standard error what its importer left out or assumed (Scene::notes),
-/// and applies --material and --light.
+/// Loads the scene or builds the gallery, and applies --material and --light. Each of its notes is there once.
 /// Throws UsageError, scene::SceneError or std::runtime_error with one sentence.
 scene::Scene makeScene(const SceneOptions& options);
+
+/// Says on standard error what the importer left out or assumed (Scene::notes).
+void printNotes(const scene::Scene& scene);
 
 /// Throws std::runtime_error where an output would replace a file that the scene is made of, however deep that is
 /// named. Empty names and "-" are not looked at.

@@ -67,7 +67,8 @@ Json describe(const scene::Scene& scene, const renderer::FrameReport& frame, con
             {"lightCount", frame.lights},
             {"materialCount", frame.materials},
             {"lights", lights},
-            {"materials", materials}};
+            {"materials", materials},
+            {"notes", scene.notes}};
 }
 
 Json describe(const renderer::FrameReport& frame) {

@@ -64,6 +64,7 @@ void runHeadless(const ViewOptions& options) {
     }
     renderer::Device device(options.device);
     scene::Scene scene = makeScene(options);
+    printNotes(scene);
     scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
     const bool toTerminal = options.json != "-";
     if (toTerminal) {
@@ -117,6 +118,7 @@ void runTurntable(const ViewOptions& options) {
     parseRange(options.frames, settings);
     renderer::Device device(options.device);
     scene::Scene scene = makeScene(options);
+    printNotes(scene);
     scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
     nacre::view::drawTurntable(device, scene, settings);
     failOnMessages(device);
@@ -137,6 +139,7 @@ void view(const ViewOptions& options) {
     settings.input = options.input;
     settings.load = [&options] {
         scene::Scene scene = makeScene(options);
+        printNotes(scene);
         const scene::Camera camera = makeCamera(options, scene);
         std::erase_if(scene.cameras, [&](const scene::Camera& other) { return other.name == camera.name; });
         scene.cameras.insert(scene.cameras.begin(), camera);

@@ -255,6 +255,10 @@ TEST_F(RenderTest, SaysOnceWhatTheImporterAssumed) {
     EXPECT_NE(said.find(note), std::string::npos) << said;
     EXPECT_EQ(said.find(note), said.rfind(note)) << said;
     EXPECT_EQ(saidBy("stated.json").find("note"), std::string::npos);
+    const Outcome reported = run({"render", "guessed.json", "--size", "16x9", "--json", "-"});
+    const nlohmann::json notes = nlohmann::json::parse(reported.output).at("scene").at("notes");
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].get<std::string>().find("taken for centimetres"), std::string::npos);
 }
 
 TEST_F(RenderTest, OneAndSixtyFourMaterialsCostTheSameDispatches) {
