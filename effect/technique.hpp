@@ -40,13 +40,18 @@ inline constexpr Intermediate rowsIntermediate{.number = intermediateRows,
                                                .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                                .extent = [](VkExtent2D extent) { return extent; }};
 
+/// Optional images that are given, bits 1u << NacreImageSlot.
+using ImageSet = std::uint32_t;
+
 /// Which of a pass's pipelines: a bit for every specialization constant that is true, by its constant_id. Asking costs
 /// nothing in the pipelines where it is false.
 using Variant = std::uint32_t;
 inline constexpr Variant separateMaterials = 1u << 0; ///< scatter's: some do not exchange light with some others
-inline constexpr Variant albedoOrStrength = 1u << 1;  ///< scatter's: such an image, or a material of strength below 1
+inline constexpr Variant albedoOrFactors =
+    1u << 1; ///< scatter's: an image of albedo, strength or scale, or a material of strength below 1
 inline constexpr Variant severalShadowMaps = 1u << 0; ///< transmit's: more than one
-inline constexpr Variant generalLights = 1u << 1;     ///< transmit's: a light with more than a linear map of its own
+inline constexpr Variant generalCall =
+    1u << 1; ///< transmit's: a light with more than a linear map of its own, or an image of scales
 inline constexpr std::size_t variantCount = 4;
 
 /// One compute dispatch, or several of one pipeline.

@@ -154,7 +154,8 @@ NacreResult nacreFillScatterParameters(const NacreScatterInfo* info, uint32_t im
                                        size_t size, void* data) {
     return guarded(messages, [&] {
         checkGiven(info, "NacreScatterInfo");
-        checkOptional(images, bitOf(NACRE_IMAGE_NORMAL) | bitOf(NACRE_IMAGE_STRENGTH) | bitOf(NACRE_IMAGE_ALBEDO));
+        checkOptional(images, bitOf(NACRE_IMAGE_NORMAL) | bitOf(NACRE_IMAGE_STRENGTH) | bitOf(NACRE_IMAGE_SCALE) |
+                                  bitOf(NACRE_IMAGE_ALBEDO));
         if (info->baselines && info->baselines->thesisBakedKernel) {
             fail(NACRE_ERROR_INVALID_ARGUMENT, "NacreBaselineSettings::thesisBakedKernel is ",
                  info->baselines->thesisBakedKernel,
@@ -171,8 +172,8 @@ NacreResult nacreFillTransmitParameters(const NacreTransmitInfo* info, uint32_t 
                                         size_t size, void* data) {
     return guarded(messages, [&] {
         checkGiven(info, "NacreTransmitInfo");
-        checkOptional(images, bitOf(NACRE_IMAGE_NORMAL) | bitOf(NACRE_IMAGE_STRENGTH) | bitOf(NACRE_IMAGE_THICKNESS) |
-                                  bitOf(NACRE_IMAGE_THICKNESS_OUT));
+        checkOptional(images, bitOf(NACRE_IMAGE_NORMAL) | bitOf(NACRE_IMAGE_STRENGTH) | bitOf(NACRE_IMAGE_SCALE) |
+                                  bitOf(NACRE_IMAGE_THICKNESS) | bitOf(NACRE_IMAGE_THICKNESS_OUT));
         const VkRect2D area = renderArea(info->view, info->depth.extent, largestExtent, "NacreTransmitInfo");
         fillBlock(transmitParameters(*info, images, area), size, data);
     });
@@ -203,6 +204,6 @@ uint32_t nacreGetScatterConstants(uint32_t images, uint32_t materialCount, const
     return scatterVariant(images, common == 0, havePartialStrength);
 }
 
-uint32_t nacreGetTransmitConstants(const NacreTransmitInfo* info) {
-    return info && (info->lights || info->lightCount == 0) ? variantOf(*info) : 0;
+uint32_t nacreGetTransmitConstants(uint32_t images, const NacreTransmitInfo* info) {
+    return info && (info->lights || info->lightCount == 0) ? variantOf(*info, images) : 0;
 }

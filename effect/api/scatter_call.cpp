@@ -21,6 +21,7 @@ constexpr struct {
     {NACRE_IMAGE_DEPTH, &NacreScatterInfo::depth, "NacreScatterInfo::depth"},
     {NACRE_IMAGE_NORMAL, &NacreScatterInfo::normal, "NacreScatterInfo::normal"},
     {NACRE_IMAGE_STRENGTH, &NacreScatterInfo::strength, "NacreScatterInfo::strength"},
+    {NACRE_IMAGE_SCALE, &NacreScatterInfo::scale, "NacreScatterInfo::scale"},
     {NACRE_IMAGE_ALBEDO, &NacreScatterInfo::albedo, "NacreScatterInfo::albedo"},
     {NACRE_IMAGE_SCATTERED, &NacreScatterInfo::scattered, "NacreScatterInfo::scattered"},
 };
@@ -62,6 +63,7 @@ void scatter(Context& context, VkCommandBuffer commandBuffer, const NacreScatter
     descriptors.sampled(bindingMaterialId, ids, ids);
     descriptors.sampled(bindingNormal, info.normal, info.irradiance);
     descriptors.sampled(bindingStrength, info.strength, info.irradiance);
+    descriptors.sampled(bindingScale, info.scale, info.irradiance);
     descriptors.sampled(bindingIrradiance, info.irradiance, info.irradiance);
     descriptors.sampled(bindingAlbedo, info.albedo, info.irradiance);
     descriptors.output(bindingScattered, info.scattered);

@@ -19,6 +19,7 @@ constexpr struct {
     {NACRE_IMAGE_NORMAL, &NacreTransmitInfo::normal, "NacreTransmitInfo::normal"},
     {NACRE_IMAGE_THICKNESS, &NacreTransmitInfo::thickness, "NacreTransmitInfo::thickness"},
     {NACRE_IMAGE_STRENGTH, &NacreTransmitInfo::strength, "NacreTransmitInfo::strength"},
+    {NACRE_IMAGE_SCALE, &NacreTransmitInfo::scale, "NacreTransmitInfo::scale"},
     {NACRE_IMAGE_TRANSMITTED, &NacreTransmitInfo::transmitted, "NacreTransmitInfo::transmitted"},
     {NACRE_IMAGE_THICKNESS_OUT, &NacreTransmitInfo::thicknessOut, "NacreTransmitInfo::thicknessOut"},
 };
@@ -77,6 +78,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.sampled(bindingMaterialId, ids, ids);
     descriptors.sampled(bindingNormal, info.normal, info.normal);
     descriptors.sampled(bindingStrength, info.strength, info.normal);
+    descriptors.sampled(bindingScale, info.scale, info.normal);
     descriptors.sampled(bindingThickness, info.thickness, info.normal);
     descriptors.sampledArray(bindingShadowMaps, maps, maxShadowMaps, maps.empty() ? noMap : maps.front());
     descriptors.output(bindingTransmitted, info.transmitted);
@@ -86,7 +88,7 @@ void transmit(Context& context, VkCommandBuffer commandBuffer, const NacreTransm
     descriptors.write(context.device);
     ++context.frames[frame].transmit.used;
     recordPasses({context, context.transmit, transmitIndex, commandBuffer, call.set, area.extent, info.timestamps,
-                  (maps.empty() ? transmitTechnique.uses() : 0) | idsIntermediate(context), 0, variantOf(info)});
+                  (maps.empty() ? transmitTechnique.uses() : 0) | idsIntermediate(context), 0, variantOf(info, given)});
 }
 
 } // namespace

@@ -28,9 +28,11 @@ struct Mixture {
     uint word;      // the material's strength, and bits of the kernels that have a weight
 };
 
-// `pixel`: near where. A surface across the view direction is seen at the same scale everywhere.
-Mixture findMixture(uint material, float depth, ivec2 pixel) {
-    float octave = -log2(texelWidth(0, depth / stretchAt(pixel)));
+// `pixel`: near where. A surface across the view direction is seen at the same scale everywhere. `scale`: scaleAt there; a
+// profile that is twice as wide is the same profile seen from half as far away.
+Mixture findMixture(uint material, float depth, ivec2 pixel, float scale) {
+    float width = texelWidth(0, depth / stretchAt(pixel));
+    float octave = -log2(hasFlag(flagScale) ? width / scale : width);
     float position = clamp(float(bankBinsPerOctave) * (octave - float(bankFirstOctave)), 0.0, float(bankTableBins - 1u));
     uint bin = min(uint(position), bankTableBins - 1u); // whatever a position that is not a number becomes
     uint first = material * bankTableWords + bin * bankBinWords;
@@ -123,7 +125,7 @@ void storeGroup(ivec2 local, bvec4 members, uint material, float strength, Sum s
     [[unroll]] for (int i = 0; i < ownPixels; ++i) {
         leaving[i] = sum.light[i] / max(sum.weight, vec3(1e-20));
     }
-    if (albedoOrStrength && (strength < 1.0 || hasFlag(flagStrength))) {
+    if (albedoOrFactors && (strength < 1.0 || hasFlag(flagStrength))) {
         [[unroll]] for (int i = 0; i < ownPixels; ++i) {
             if (members[i]) {
                 ivec2 pixel = first + ivec2(i & 1, i >> 1);

@@ -289,7 +289,8 @@ void main() {
     barrier();
     float depth = pixelDepths[ownPlace(local, ivec2(0))]; // 0 where there is no material
     if (depth > 0.0) {
-        Mixture mixture = findMixture(material, depth, region.first + local + view.areaOffset);
+        ivec2 pixel = region.first + local + view.areaOffset;
+        Mixture mixture = findMixture(material, depth, pixel, scaleAt(pixel));
         Sum sum = noSum();
         uint used = usedKernels(mixture);
         vec3 passedOn = addLevels(sum, mixture, used, region.first, local, depth, material);

@@ -201,7 +201,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) invoc
     let place = pixelPlace(local);
     let receiver = Receiver(local, pixelDepths[place], pixelMaterials[place]);
     if (receiver.depth > 0.0) {
-        let mixture = findMixture(receiver.material, receiver.depth, pixel);
+        let mixture = findMixture(receiver.material, receiver.depth, pixel, scaleAt(pixel));
         writeScattered(pixel, receiver.material, combine(mixture, region.first, receiver), strengthOf(mixture));
     } else {
         writeUnscattered(pixel, receiver.material);

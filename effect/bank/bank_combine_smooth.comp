@@ -348,6 +348,21 @@ void storeRest(ivec2 first, uint scattering) {
     }
 }
 
+// The mean scaleAt of a group's pixels, which share a mixture. `first`: of the quad.
+float groupScale(ivec2 first, bvec4 members) {
+    if (!hasFlag(flagScale)) {
+        return 1.0;
+    }
+    vec2 sum = vec2(0.0); // and how many
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 local = first + ivec2(i & 1, i >> 1);
+        if (members[i] && all(lessThan(local, view.areaExtent))) {
+            sum += vec2(scaleAt(local + view.areaOffset), 1.0);
+        }
+    }
+    return sum.x / sum.y;
+}
+
 void main() {
     Region region;
     if (!findRegion(0, region)) {
@@ -384,7 +399,7 @@ void main() {
             remaining = 0u;
         }
         vec2 beside = weightsOf(quad.word);
-        Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset);
+        Mixture mixture = findMixture(material, quad.depth, first + view.areaOffset, groupScale(first, members));
         uint used = usedKernels(mixture);
         Sum sum = sumCoarseLevels(mixture, used, region.first, 2 * texel, quad.depth);
         addIdentity(sum, kernelWeight(mixture, 0), texel);

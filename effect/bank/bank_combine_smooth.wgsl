@@ -174,6 +174,21 @@ fn sumKernels(mixture: Mixture, region: vec2i, texel: vec2i, words: vec4u) -> Su
     return sum;
 }
 
+// The mean scaleAt of a quad's pixels of a material, which share a mixture.
+fn groupScale(first: vec2i, quadsMaterials: vec2u, material: u32) -> f32 {
+    if (!hasFlag(flagScale)) {
+        return 1.0;
+    }
+    var sum = vec2f(0.0); // and how many
+    for (var i = 0; i < 4; i++) {
+        let local = first + offsetOf(i);
+        if (pixelMaterial(quadsMaterials, offsetOf(i)) == material && all(local < parameters.view.areaExtent)) {
+            sum += vec2f(scaleAt(local + parameters.view.areaOffset), 1.0);
+        }
+    }
+    return sum.x / sum.y;
+}
+
 @compute @workgroup_size(16, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) invocation: vec3u,
         @builtin(local_invocation_index) index: u32) {
@@ -206,7 +221,8 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) invoc
         }
         if (material != summed) {
             summed = material;
-            mixture = findMixture(material, bitcast<f32>(words.z), first + parameters.view.areaOffset);
+            mixture = findMixture(material, bitcast<f32>(words.z), first + parameters.view.areaOffset,
+                                  groupScale(first, quadsMaterials, material));
             sum = sumKernels(mixture, region.first, texel, words);
         }
         writeScattered(pixel, material, sum.light[i] / max(sum.weight, vec3f(1e-20)), strengthOf(mixture));

@@ -192,9 +192,9 @@ struct Mixture {
     word: u32,     // the material's strength, and bits of the kernels that have a weight
 }
 
-// `pixel`: near where. A surface across the view direction is seen at the same scale everywhere.
-fn findMixture(material: u32, depth: f32, pixel: vec2i) -> Mixture {
-    let octave = -log2(texelWidth(0, depth / stretchAt(pixel)));
+// `pixel`: near where. A surface across the view direction is seen at the same scale everywhere. `scale`: scaleAt there.
+fn findMixture(material: u32, depth: f32, pixel: vec2i, scale: f32) -> Mixture {
+    let octave = -log2(texelWidth(0, depth / stretchAt(pixel)) / scale);
     let position = clamp(f32(bankBinsPerOctave) * (octave - f32(bankFirstOctave)), 0.0, f32(bankTableBins - 1u));
     let bin = min(u32(position), bankTableBins - 1u);
     let first = material * bankTableWords + bin * bankBinWords;

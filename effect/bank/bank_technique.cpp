@@ -209,7 +209,7 @@ constexpr Pass edgePass{.name = "nacre bank combine edge",
                         .reads = reduced | blurred | pixelMaterials | areas | tiles,
                         .indirect = intermediateBankTiles,
                         .indirectOffset = sizeof(BankDispatch),
-                        .constants = separateMaterials | albedoOrStrength};
+                        .constants = separateMaterials | albedoOrFactors};
 constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .file = "bank_combine_smooth",
                           .spirv = bank_combine_smooth_spv,
@@ -218,7 +218,7 @@ constexpr Pass smoothPass{.name = "nacre bank combine smooth",
                           .reads = reduced | blurred | pixelMaterials | tiles,
                           .indirect = intermediateBankTiles,
                           .indirectOffset = 0,
-                          .constants = albedoOrStrength};
+                          .constants = albedoOrFactors};
 constexpr Pass passes[] = {reducePass, blurPass, edgePass, smoothPass};
 
 // The same pass with second surfaces.

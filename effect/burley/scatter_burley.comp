@@ -28,6 +28,7 @@ struct Sum {
 struct Disc {
     ivec2 pixel;
     uint material;
+    float scale;     // of the profile's lengths
     float radius;    // mm
     vec3 position;   // view space, mm
     float pixelArea; // mm², facing the camera
@@ -80,8 +81,8 @@ float inverseCumulative(Disc disc, float share) {
     float within = share / tables[disc.material].share;
     float position = (1.0 - sqrt(max(1.0 - within, 0.0))) * float(burleyEntries - 1u);
     uint index = min(uint(position), burleyEntries - 2u);
-    return sqrt(mix(tables[disc.material].radial[index].w, tables[disc.material].radial[index + 1u].w,
-                    position - float(index)));
+    float squared = mix(tables[disc.material].radial[index].w, tables[disc.material].radial[index + 1u].w, position - float(index));
+    return disc.scale * sqrt(squared);
 }
 
 // Adds one sample at an offset in px; `density` is the widest channel's profile at the distance it was drawn with.
@@ -163,7 +164,8 @@ void main() {
     ivec2 pixel = local + view.areaOffset;
     uint material = materialAt(pixel);
     float z = viewZ(pixel);
-    float radius = materials[material].radius;
+    float scale = scaleAt(pixel);
+    float radius = scale * materials[material].radius;
     float radiusPixels = radius / (parameters.pixelWidth * clipW(z));
     if (material == 0u || !isValidZ(z) || strengthAt(pixel, material) == 0.0 || radiusPixels < 1.0) {
         writeUnscattered(pixel, material);
@@ -171,7 +173,7 @@ void main() {
     }
     float wanted = ceil(pi * radiusPixels * radiusPixels / areaPerSample);
     int sampleCount = int(min(wanted, float(parameters.burleySampleBudget)));
-    vec3 meanFreePath = tables[material].meanFreePath.rgb;
-    Disc disc = Disc(pixel, material, radius, viewPosition(pixel, z), 0.0, meanFreePath, meanFreePath.r > 0.0);
+    vec3 meanFreePath = scale * tables[material].meanFreePath.rgb;
+    Disc disc = Disc(pixel, material, scale, radius, viewPosition(pixel, z), 0.0, meanFreePath, meanFreePath.r > 0.0);
     writeScattered(pixel, material, gather(disc, z, sampleCount));
 }

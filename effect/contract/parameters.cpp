@@ -15,8 +15,8 @@ std::uint32_t flagsOf(ImageSet given) {
         return (given >> slot & 1u) != 0 ? value : 0u;
     };
     return flag(NACRE_IMAGE_NORMAL, flagNormal) | flag(NACRE_IMAGE_STRENGTH, flagStrength) |
-           flag(NACRE_IMAGE_ALBEDO, flagAlbedo) | flag(NACRE_IMAGE_THICKNESS, flagThickness) |
-           flag(NACRE_IMAGE_THICKNESS_OUT, flagThicknessOut);
+           flag(NACRE_IMAGE_SCALE, flagScale) | flag(NACRE_IMAGE_ALBEDO, flagAlbedo) |
+           flag(NACRE_IMAGE_THICKNESS, flagThickness) | flag(NACRE_IMAGE_THICKNESS_OUT, flagThicknessOut);
 }
 
 template <typename Info> void setNormals(ViewParameters& view, const Info& info, const FieldName& name) {

@@ -8,15 +8,12 @@
 
 namespace nacre::effect {
 
-/// Optional images that are given, bits 1u << NacreImageSlot.
-using ImageSet = std::uint32_t;
-
 /// What a call asks of its passes. haveSeparate: some materials do not exchange light with some others;
 /// havePartialStrength: some have a strength below 1.
 constexpr Variant scatterVariant(ImageSet given, bool haveSeparate, bool havePartialStrength) {
-    constexpr ImageSet asking = 1u << NACRE_IMAGE_ALBEDO | 1u << NACRE_IMAGE_STRENGTH;
+    constexpr ImageSet asking = 1u << NACRE_IMAGE_ALBEDO | 1u << NACRE_IMAGE_STRENGTH | 1u << NACRE_IMAGE_SCALE;
     return (haveSeparate ? separateMaterials : 0) |
-           ((given & asking) != 0 || havePartialStrength ? albedoOrStrength : 0);
+           ((given & asking) != 0 || havePartialStrength ? albedoOrFactors : 0);
 }
 /// albedoBefore: whether some material may apply the albedo before scattering, too.
 ScatterParameters scatterParameters(const NacreScatterInfo& info, ImageSet given, const VkRect2D& area,

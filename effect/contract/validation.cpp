@@ -32,8 +32,8 @@ constexpr VkFormat normalFormats[] = {VK_FORMAT_R16G16B16A16_SFLOAT,
                                       VK_FORMAT_R8G8_SNORM,
                                       VK_FORMAT_R8G8_UNORM,
                                       VK_FORMAT_R32G32_SFLOAT};
-constexpr VkFormat strengthFormats[] = {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_UNORM, VK_FORMAT_R16_SFLOAT,
-                                        VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
+constexpr VkFormat factorFormats[] = {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_UNORM, VK_FORMAT_R16_SFLOAT,
+                                      VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
 constexpr VkFormat thicknessFormats[] = {VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT};
 constexpr VkFormat albedoFormats[] = {VK_FORMAT_R8G8B8A8_UNORM,           VK_FORMAT_R8G8B8A8_SRGB,
                                       VK_FORMAT_B8G8R8A8_UNORM,           VK_FORMAT_B8G8R8A8_SRGB,
@@ -101,7 +101,9 @@ NacreImageRequirements imageRequirements(NacreImageSlot which) {
     case NACRE_IMAGE_NORMAL:
         return slot("normal", normalFormats, sampled, true);
     case NACRE_IMAGE_STRENGTH:
-        return slot("strength", strengthFormats, sampled, true);
+        return slot("strength", factorFormats, sampled, true);
+    case NACRE_IMAGE_SCALE:
+        return slot("scale", factorFormats, sampled, true);
     case NACRE_IMAGE_THICKNESS:
         return slot("thickness", thicknessFormats, sampled, true);
     case NACRE_IMAGE_ALBEDO:

@@ -25,6 +25,7 @@ NACRE_CONSTANT bindingLights = 11;     // transmit, storage: LightParameters[]
 NACRE_CONSTANT bindingShadowMaps = 12; // transmit, array of maxShadowMaps
 NACRE_CONSTANT bindingTransmitted = 13;  // transmit, output
 NACRE_CONSTANT bindingThicknessOut = 14; // transmit, output
+NACRE_CONSTANT bindingScale = 15;
 NACRE_CONSTANT bindingIntermediates = 16; // + the intermediate… constants
 
 // The techniques' blocks have the other intermediates; a number means the same in all of them.
@@ -35,6 +36,7 @@ NACRE_CONSTANT intermediateRows = 0; // light after a pass over rows: `separable
 NACRE_CONSTANT flagNormal = 1u;
 NACRE_CONSTANT flagStrength = 2u;
 NACRE_CONSTANT flagAlbedo = 4u;
+NACRE_CONSTANT flagScale = 2048u;
 NACRE_CONSTANT flagThickness = 8u;
 NACRE_CONSTANT flagThicknessOut = 16u;
 NACRE_CONSTANT flagThesisTransmittance = 32u;

@@ -57,3 +57,4 @@ struct Materials {
 @group(0) @binding(bindingMaterialId) var materialIdImage: texture_2d<u32>;
 @group(0) @binding(bindingNormal) var normalImage: texture_2d<f32>;
 @group(0) @binding(bindingStrength) var strengthImage: texture_2d<f32>;
+@group(0) @binding(bindingScale) var scaleImage: texture_2d<f32>;

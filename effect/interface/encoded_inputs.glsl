@@ -1,5 +1,5 @@
 // What a pixel's material id and normal are, however the context's images hold them. Needs `view`, `materialIdImage`,
-// `strengthImage`, `normalImage` and hasFlag.
+// `strengthImage`, `normalImage`, `scaleImage`, hasFlag and isFinite.
 
 // NacreContextInfo::noMaterialIds: there is no image of ids, and the one material is where the strength says so.
 layout(constant_id = constantNoMaterialIds) const bool noMaterialIds = false;
@@ -11,6 +11,19 @@ uint materialIdAt(ivec2 pixel) {
         return !hasFlag(flagStrength) || texelFetch(strengthImage, pixel, 0).r > 0.0 ? 1u : 0u;
     }
     return texelFetch(materialIdImage, pixel, 0).r;
+}
+
+// [1] What the scale image's values are bounded to.
+const float leastScale = 1e-3;
+const float largestScale = 1e3;
+
+// The pixel's factor on the lengths of its material's profile; 1 where it is no number.
+float scaleAt(ivec2 pixel) {
+    if (!hasFlag(flagScale)) {
+        return 1.0;
+    }
+    float scale = texelFetch(scaleImage, pixel, 0).r;
+    return isFinite(scale) ? clamp(scale, leastScale, largestScale) : 1.0;
 }
 
 // The normal that two numbers hold: the octahedron |x| + |y| + |z| = 1, whose lower half is folded over its upper one.

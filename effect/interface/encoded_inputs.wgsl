@@ -15,6 +15,19 @@ fn materialOfId(id: u32) -> u32 {
     return materials.slots[id & (materialIdCount - 1u)];
 }
 
+// [1] What the scale image's values are bounded to.
+const leastScale: f32 = 1e-3;
+const largestScale: f32 = 1e3;
+
+// The pixel's factor on the lengths of its material's profile; 1 where it is no number.
+fn scaleAt(pixel: vec2i) -> f32 {
+    if (!hasFlag(flagScale)) {
+        return 1.0;
+    }
+    let scale = textureLoad(scaleImage, pixel, 0).r;
+    return select(1.0, clamp(scale, leastScale, largestScale), isFinite(scale));
+}
+
 // The normal that two numbers hold: the octahedron |x| + |y| + |z| = 1, whose lower half is folded over its upper one.
 fn octahedralNormal(value: vec2f) -> vec3f {
     let z = 1.0 - abs(value.x) - abs(value.y);

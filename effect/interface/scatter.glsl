@@ -15,6 +15,7 @@ layout(set = 0, binding = bindingDepth) uniform texture2D depthImage;
 layout(set = 0, binding = bindingMaterialId) uniform utexture2D materialIdImage;
 layout(set = 0, binding = bindingNormal) uniform texture2D normalImage;
 layout(set = 0, binding = bindingStrength) uniform texture2D strengthImage;
+layout(set = 0, binding = bindingScale) uniform texture2D scaleImage;
 layout(set = 0, binding = bindingIrradiance) uniform texture2D irradianceImage;
 layout(set = 0, binding = bindingAlbedo) uniform texture2D albedoImage;
 layout(set = 0, binding = bindingScattered) uniform writeonly image2D scatteredImage;

@@ -17,9 +17,9 @@ layout(set = 0, binding = bindingIntermediates + intermediateRows, rgba16f) unif
 // step that one tap makes in a shadow edge's response under 1 % at 60 px.
 const int maxTaps = 32;
 
-// Half the line-spread's mass within ±x mm.
-vec3 massWithin(uint material, float x) {
-    float position = sqrt(min(x / materials[material].radius, 1.0)) * float(lineSpreadEntries - 1u);
+// Half the line-spread's mass within ±x mm, given what is outermost of it.
+vec3 massWithin(uint material, float radius, float x) {
+    float position = sqrt(min(x / radius, 1.0)) * float(lineSpreadEntries - 1u);
     uint index = min(uint(position), lineSpreadEntries - 2u);
     uint base = material * lineSpreadEntries + index;
     return mix(lineSpread[base].rgb, lineSpread[base + 1u].rgb, position - float(index));
@@ -71,7 +71,8 @@ vec3 gather(ivec2 pixel, uint material, float z) {
     vec3 center = imageLoad(rows, pixel - view.areaOffset).rgb;
 #endif
     vec3 position = viewPosition(pixel, z);
-    float radius = materials[material].radius / pixelSize;
+    float reach = scaleAt(pixel) * materials[material].radius;
+    float radius = reach / pixelSize;
     int taps = int(min(ceil(radius - 0.5), float(maxTaps)));
 
     vec3 light = vec3(0.0);
@@ -84,7 +85,7 @@ vec3 gather(ivec2 pixel, uint material, float z) {
         for (int side = -1; side <= 1; side += 2) {
             Tap tap = fetchTap(pixel + side * int(offset) * direction, material, position, offset * pixelSize);
             if (tap.accepted) {
-                vec3 mass = massWithin(material, far * tap.stretch) - massWithin(material, near * tap.stretch);
+                vec3 mass = massWithin(material, reach, far * tap.stretch) - massWithin(material, reach, near * tap.stretch);
                 light += mass * tap.light;
                 weight += mass;
                 centerStretch = k == 1 ? min(centerStretch, tap.stretch) : centerStretch;
@@ -92,7 +93,7 @@ vec3 gather(ivec2 pixel, uint material, float z) {
         }
     }
     if (isFinite(center)) {
-        vec3 mass = 2.0 * massWithin(material, 0.5 * pixelSize * (centerStretch < 1e30 ? centerStretch : 1.0));
+        vec3 mass = 2.0 * massWithin(material, reach, 0.5 * pixelSize * (centerStretch < 1e30 ? centerStretch : 1.0));
         light += mass * center;
         weight += mass;
     }

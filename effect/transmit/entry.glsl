@@ -1,6 +1,6 @@
 // Where a light enters a body, and what comes through to the receiver. The texels of a shadow map are points of the lit
 // surface; 4x4 of them, as far apart as the material's profile is wide, say how the surface lies and where it ends
-// (docs/theory.md, "Light that comes through"). Needs `parameters`, `tables` and transmittance.glsl.
+// (docs/theory.md, "Light that comes through"). Needs `parameters` and spreadOf.
 
 // [1] Distance between points of the lit surface, over the radius outside of which a quarter of the light leaves. Wider
 // tells less about small bodies, narrower less about where a body ends.
@@ -67,8 +67,8 @@ EntryFrame entryFrame(LightParameters light, ShadowPoint point, vec3 normal, vec
 
 // Texels between the points on an axis of the map. Where a texel's size changes over the map it keeps to powers of two,
 // so that the points of neighbours are the same.
-float entrySpacingOf(LightParameters light, uint material, float texelSize) {
-    float wanted = entrySpacing * tables[material].spread / (texelSize * view.mmPerUnit);
+float entrySpacingOf(LightParameters light, Receiver receiver, float texelSize) {
+    float wanted = entrySpacing * spreadOf(receiver) / (texelSize * view.mmPerUnit);
     if (light.kind != lightDirectional) {
         wanted = exp2(floor(log2(max(wanted, 1e-6)) + 0.5));
     }

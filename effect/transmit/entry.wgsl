@@ -15,6 +15,17 @@ struct Receiver {
     normal: vec3f,       // world space, unit length
     material: u32,
     authored: f32, // mm, 0 = not authored
+    scale: f32,    // of the profile's lengths
+}
+
+// [mm] Thickness that lets nothing through.
+fn reachOf(receiver: Receiver) -> f32 {
+    return receiver.scale * f32(transmittanceEnd) / tables[receiver.material].scale;
+}
+
+// [mm] Radius outside of which a quarter of the light leaves.
+fn spreadOf(receiver: Receiver) -> f32 {
+    return receiver.scale * tables[receiver.material].spread;
 }
 
 // Projects offsets from the light to a layer of its shadow map: rows for texel coordinates times w, and for w.
@@ -131,8 +142,8 @@ fn entryFrame(light: LightParameters, point: ShadowPoint, normal: vec3f, toLight
 
 // Texels between the points on an axis of the map. Where a texel's size changes over the map it keeps to powers of two, so
 // that the points of neighbours are the same.
-fn entrySpacingOf(light: LightParameters, material: u32, texelSize: f32) -> f32 {
-    var wanted = entrySpacing * tables[material].spread / (texelSize * parameters.view.mmPerUnit);
+fn entrySpacingOf(light: LightParameters, receiver: Receiver, texelSize: f32) -> f32 {
+    var wanted = entrySpacing * spreadOf(receiver) / (texelSize * parameters.view.mmPerUnit);
     if (light.kind != lightDirectional) {
         wanted = exp2(floor(log2(max(wanted, 1e-6)) + 0.5));
     }

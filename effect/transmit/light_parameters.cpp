@@ -296,10 +296,11 @@ std::uint32_t lightElementCount(const NacreTransmitInfo& info) {
     return count;
 }
 
-Variant variantOf(const NacreTransmitInfo& info) {
+Variant variantOf(const NacreTransmitInfo& info, ImageSet given) {
     const std::span lights(info.lights, info.lightCount);
     return (info.shadowMapCount > 1 ? severalShadowMaps : 0) |
-           (std::any_of(lights.begin(), lights.end(), isGeneral) ? generalLights : 0);
+           ((given >> NACRE_IMAGE_SCALE & 1u) != 0 || std::any_of(lights.begin(), lights.end(), isGeneral) ? generalCall
+                                                                                                           : 0);
 }
 
 void fillLights(const NacreTransmitInfo& info, std::byte* to) {

@@ -14,7 +14,7 @@ void checkLights(const NacreTransmitInfo& info);
 /// How many LightParameters they take: one a light, then one a cascade.
 std::uint32_t lightElementCount(const NacreTransmitInfo& info);
 /// The constants that the call's pass has to have.
-Variant variantOf(const NacreTransmitInfo& info);
+Variant variantOf(const NacreTransmitInfo& info, ImageSet given);
 /// Fills lightElementCount LightParameters of lights that were checked.
 void fillLights(const NacreTransmitInfo& info, std::byte* to);
 

@@ -48,7 +48,7 @@ struct LightParameters {
 @group(0) @binding(bindingLights) var<storage, read> lights: array<LightParameters>;
 
 // Some light has a map with hardware depth, of culled front faces, in an atlas or in cascades, or falls off in its own way.
-@id(1) override generalLights: bool = false;
+@id(1) override generalCall: bool = false;
 
 const lightDirectional: u32 = 0u; // NacreLightKind
 const lightPoint: u32 = 2u;
@@ -70,7 +70,7 @@ fn incidenceAt(light: LightParameters, position: vec3f) -> Incidence {
     let toLight = offset * inverseSqrt(squared);
     let meters = light.irradiance.w;
     var attenuation = 1.0 / (squared * meters * meters);
-    if (generalLights) {
+    if (generalCall) {
         let distance = sqrt(squared) * meters;
         attenuation = 1.0 / dot(light.attenuation.xyz, vec3f(1.0, distance, distance * distance));
     }

@@ -28,7 +28,7 @@ struct MapsAnswer {
 // The light's own map or its cascades, whose last that has the receiver tells what those before it leave. One call of
 // lightThrough for all keeps the code small.
 MapsAnswer throughMaps(LightParameters light, Receiver receiver, vec3 toLight, float cosine) {
-    bool inCascades = generalLights && light.cascadeCount > 0u;
+    bool inCascades = generalCall && light.cascadeCount > 0u;
     uint count = inCascades ? light.cascadeCount : light.shadowMap == noShadowMap ? 0u : 1u;
     vec4 sum = vec4(0.0);
     float texelSize = 0.0;

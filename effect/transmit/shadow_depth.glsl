@@ -1,5 +1,5 @@
 // What the texels of a shadow map say: how far along the light it enters. Needs `shadowMaps`, `view` and the constants
-// severalShadowMaps and generalLights.
+// severalShadowMaps and generalCall.
 
 // 4x4 texels of a shadow map. Constant indices, because not every device indexes arrays of images dynamically; found in
 // groups of four; loops of one turn instead of a switch, because software devices run every side of a branch but skip
@@ -67,10 +67,10 @@ struct MapDepths {
 };
 
 MapDepths depthsAlongLight(LightParameters light, Taps taps, uint layer) {
-    ivec2 origin = generalLights ? ivec2(light.shadowOrigin) : ivec2(0);
+    ivec2 origin = generalCall ? ivec2(light.shadowOrigin) : ivec2(0);
     mat4 stored = storedDepths(light.shadowMap, taps, origin, layer);
     MapDepths result;
-    bool isHardware = generalLights && (light.shadowFlags & shadowHardwareDepth) != 0u;
+    bool isHardware = generalCall && (light.shadowFlags & shadowHardwareDepth) != 0u;
     if (isHardware) {
         result.depth = decodedDepths(light, stored, taps);
     }
@@ -89,5 +89,5 @@ MapDepths depthsAlongLight(LightParameters light, Taps taps, uint layer) {
 
 // Whether a light's map has the faces that look away from the light, the receiver's own among them.
 bool isFrontFaceCulled(LightParameters light) {
-    return generalLights && (light.shadowFlags & shadowFrontFacesCulled) != 0u;
+    return generalCall && (light.shadowFlags & shadowFrontFacesCulled) != 0u;
 }

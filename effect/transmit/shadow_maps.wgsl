@@ -78,8 +78,8 @@ struct MapDepths {
 }
 
 fn depthsAlongLight(light: LightParameters, taps: Taps, layer: u32) -> MapDepths {
-    let isHardware = generalLights && (light.shadowFlags & shadowHardwareDepth) != 0u;
-    let origin = select(vec2i(0), light.shadowOrigin, generalLights);
+    let isHardware = generalCall && (light.shadowFlags & shadowHardwareDepth) != 0u;
+    let origin = select(vec2i(0), light.shadowOrigin, generalCall);
     let range = light.direction.w * parameters.view.mmPerUnit;
     var map: MapDepths;
     for (var row = 0; row < 4; row++) {
@@ -101,5 +101,5 @@ fn depthsAlongLight(light: LightParameters, taps: Taps, layer: u32) -> MapDepths
 
 // Whether a light's map has the faces that look away from the light, the receiver's own among them.
 fn isFrontFaceCulled(light: LightParameters) -> bool {
-    return generalLights && (light.shadowFlags & shadowFrontFacesCulled) != 0u;
+    return generalCall && (light.shadowFlags & shadowFrontFacesCulled) != 0u;
 }

@@ -9,8 +9,9 @@
 #include "transmit_blocks.h"
 
 layout(constant_id = 0) const bool severalShadowMaps = false; // else all lights have the first
-// Some light has a map with hardware depth, of culled front faces, in an atlas or in cascades, or falls off in its own way.
-layout(constant_id = 1) const bool generalLights = false;
+// Some light has a map with hardware depth, of culled front faces, in an atlas or in cascades, or falls off in its own way; or
+// there is an image of scales.
+layout(constant_id = 1) const bool generalCall = false;
 
 layout(local_size_x = 8, local_size_y = 16) in;
 layout(set = 0, binding = bindingParameters, std140) uniform Parameters {
@@ -30,6 +31,7 @@ layout(set = 0, binding = bindingDepth) uniform texture2D depthImage;
 layout(set = 0, binding = bindingMaterialId) uniform utexture2D materialIdImage;
 layout(set = 0, binding = bindingNormal) uniform texture2D normalImage;
 layout(set = 0, binding = bindingStrength) uniform texture2D strengthImage;
+layout(set = 0, binding = bindingScale) uniform texture2D scaleImage;
 layout(set = 0, binding = bindingThickness) uniform texture2D thicknessImage;
 layout(set = 0, binding = bindingShadowMaps) uniform texture2DArray shadowMaps[maxShadowMaps];
 layout(set = 0, binding = bindingTransmitted) uniform writeonly image2D transmittedImage;
@@ -67,7 +69,30 @@ struct Receiver {
     vec3 normal;       // world space, unit length
     uint material;
     float authored; // mm, 0 = not authored
+    float scale;    // of the profile's lengths; 1 without generalCall
 };
+
+// What lets the light through: a profile whose lengths are multiplied is the profile in a body that many times thinner.
+mat4 thicknessInProfile(Receiver receiver, mat4 thickness) {
+    return generalCall ? thickness * (1.0 / receiver.scale) : thickness;
+}
+
+vec3 transmittance(Receiver receiver, mat4 thickness, vec4 columnWeights, vec4 rowWeights) {
+    return transmittance(receiver.material, thicknessInProfile(receiver, thickness), columnWeights, rowWeights);
+}
+
+vec3 transmittance(Receiver receiver, float thickness) {
+    return transmittance(receiver.material, generalCall ? thickness / receiver.scale : thickness);
+}
+
+float reachOf(Receiver receiver) {
+    return receiver.scale * reachOf(receiver.material);
+}
+
+// [mm] Radius outside of which a quarter of the light leaves.
+float spreadOf(Receiver receiver) {
+    return receiver.scale * tables[receiver.material].spread;
+}
 
 // A light as the receiver sees it.
 struct Incidence {
@@ -103,7 +128,7 @@ Incidence incidenceAt(LightParameters light, vec3 position) {
     vec3 toLight = offset * inversesqrt(squared);
     float meters = light.irradiance.w;
     float attenuation = 1.0 / (squared * meters * meters);
-    if (generalLights) {
+    if (generalCall) {
         float distance = sqrt(squared) * meters;
         attenuation = 1.0 / dot(light.attenuation.xyz, vec3(1.0, distance, distance * distance));
     }
@@ -168,7 +193,7 @@ bool mayCountTwice(vec3 transmittance) {
 // lies no farther from the receiver.
 float certaintyOf(Receiver receiver, float texelSize, float deviation) {
     float least = min(texelSize * view.mmPerUnit, deviation);
-    return clamp(2.0 - 2.0 * least / reachOf(receiver.material), 0.0, 1.0);
+    return clamp(2.0 - 2.0 * least / reachOf(receiver), 0.0, 1.0);
 }
 
 // The thesis's own: along the light, under the receiver's cosine.
@@ -180,14 +205,14 @@ vec4 thesisThrough(Receiver receiver, EntryFrame frame, MapDepths map, Taps taps
         litRow(frame, map.depth[row], taps, row, coordinate, deepest, x, y, z);
         thickness[row] = clamp(z, 0.0, most);
     }
-    vec3 through = transmittance(receiver.material, thickness, taps.columnWeights, taps.rowWeights);
+    vec3 through = transmittance(receiver, thickness, taps.columnWeights, taps.rowWeights);
     return vec4(through * cosine, dot(thickness * taps.rowWeights, taps.columnWeights));
 }
 
 // What comes through of a light that shines on a surface that faces it with 1 (rgb), and thickness along the light in mm
 // (w). What is filtered is the transmittance: light adds up, thickness does not.
 vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, vec3 toLight, float cosine) {
-    float spacing = entrySpacingOf(light, receiver.material, point.texelSize);
+    float spacing = entrySpacingOf(light, receiver, point.texelSize);
     Taps taps = tapsAround(point.texel, spacing, light.shadowSize);
     MapDepths map = depthsAlongLight(light, taps, point.projection.layer);
     bool isBounded = receiver.authored > 0.0;
@@ -197,7 +222,7 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     }
     float depth = receiverDepth(light, point, receiver.normal);
     float texel = point.texelSize * view.mmPerUnit;
-    float farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
+    float farthest = reachOf(receiver) + 3.0 * spacing * texel;
     float most = isBounded ? receiver.authored : opaque;
     float inmost = 2.0 * most + (bodyTexels + bodySpacings * spacing) * texel;
     float deepest = deepestEntry(map);
@@ -215,7 +240,7 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
         LitPoints points;
         EntryPlane plane = entryPlane(frame, map, taps, point.texel, spacing * texel, farthest, inmost, points);
         mat4 thickness = entryThickness(points, plane, most);
-        result.rgb = transmittance(receiver.material, thickness, taps.columnWeights, taps.rowWeights);
+        result.rgb = transmittance(receiver, thickness, taps.columnWeights, taps.rowWeights);
         result.rgb *= plane.cosine * entryShare(plane.opposite);
         result.w = plane.count > 0.0 ? clamp(plane.height, 0.0, most) : result.w;
         deviation = plane.deviation;
@@ -225,7 +250,7 @@ vec4 lightThrough(LightParameters light, Receiver receiver, ShadowPoint point, v
     float authored = receiver.authored > 0.0 ? cosine * (1.0 - certainty) * (1.0 - shadowed) : 0.0;
     result.rgb *= certainty;
     for (bool tells = authored <= 0.0; !tells; tells = true) { // the map does not
-        result.rgb += authored * transmittance(receiver.material, receiver.authored);
+        result.rgb += authored * transmittance(receiver, receiver.authored);
     }
     return result;
 }
@@ -273,11 +298,11 @@ vec4 transmitLight(LightParameters light, Receiver receiver) {
     MapsAnswer answer = throughMaps(light, receiver, incidence.toLight, cosine);
     vec4 through = answer.through;
     if (!answer.isTold && receiver.authored > 0.0) {
-        through = vec4(transmittance(receiver.material, receiver.authored) * cosine, receiver.authored);
+        through = vec4(transmittance(receiver, receiver.authored) * cosine, receiver.authored);
     }
     for (bool asks = mayCountTwice(through.rgb); asks; asks = false) {
         float tolerance = sameSurfaceTexels * answer.texelSize * view.mmPerUnit + sameSurfaceShare * through.w +
-                          sameSurfaceSpread * tables[receiver.material].spread;
+                          sameSurfaceSpread * spreadOf(receiver);
         through.rgb *= hiddenShare(receiver, incidence.toLight, through.w, tolerance);
     }
     return vec4(through.rgb * incidence.irradiance, through.w);
@@ -319,6 +344,7 @@ void main() {
         float authored = texelFetch(thicknessImage, pixel, 0).r;
         receiver.authored = authored > 0.0 && isFinite(authored) ? authored : receiver.authored;
     }
+    receiver.scale = generalCall ? scaleAt(pixel) : 1.0;
     float translucency = material.translucency;
     if (hasFlag(flagStrength)) {
         translucency *= clamp(texelFetch(strengthImage, pixel, 0).r, 0.0, 1.0);

@@ -30,7 +30,7 @@ const leastTwice: f32 = 1.0 / 256.0;
 // no farther from the receiver.
 fn certaintyOf(receiver: Receiver, texelSize: f32, deviation: f32) -> f32 {
     let least = min(texelSize * parameters.view.mmPerUnit, deviation);
-    return clamp(2.0 - 2.0 * least / reachOf(receiver.material), 0.0, 1.0);
+    return clamp(2.0 - 2.0 * least / reachOf(receiver), 0.0, 1.0);
 }
 
 // The map's depths of the entry: where the map has far sides, the authored thickness in front of the body's own.
@@ -47,13 +47,13 @@ fn entryDepths(light: LightParameters, taps: Taps, layer: u32, authored: f32) ->
 // What comes through of a light that shines on a surface that faces it with 1 (rgb), and thickness along the light in mm (w).
 // What is filtered is the transmittance: light adds up, thickness does not.
 fn lightThrough(light: LightParameters, receiver: Receiver, point: ShadowPoint, toLight: vec3f, cosine: f32) -> vec4f {
-    let spacing = entrySpacingOf(light, receiver.material, point.texelSize);
+    let spacing = entrySpacingOf(light, receiver, point.texelSize);
     let taps = tapsAround(point.texel, spacing, light.shadowSize);
     let map = entryDepths(light, taps, point.projection.layer, receiver.authored);
     let isBounded = receiver.authored > 0.0 && !isFrontFaceCulled(light);
     let depth = receiverDepth(light, point, receiver.normal);
     let texel = point.texelSize * parameters.view.mmPerUnit;
-    let farthest = reachOf(receiver.material) + 3.0 * spacing * texel;
+    let farthest = reachOf(receiver) + 3.0 * spacing * texel;
     let most = select(opaque, receiver.authored, isBounded);
     let inmost = 2.0 * most + (bodyTexels + bodySpacings * spacing) * texel;
     let deepest = deepestEntry(map);
@@ -67,8 +67,8 @@ fn lightThrough(light: LightParameters, receiver: Receiver, point: ShadowPoint, 
         let frame = entryFrame(light, point, receiver.normal, toLight, depth);
         let points = litPoints(frame, map, taps, point.texel, farthest, inmost);
         let plane = entryPlane(points, frame.normal, spacing * texel);
-        through = transmittance(receiver.material, entryThickness(points, plane, most), taps.columns.weights,
-                                taps.rows.weights);
+        through = transmittance(receiver.material, entryThickness(points, plane, most) * (1.0 / receiver.scale),
+                                taps.columns.weights, taps.rows.weights);
         through *= plane.cosine * entryShare(plane.opposite);
         thickness = select(thickness, clamp(plane.height, 0.0, most), points.count > 0.0);
         deviation = plane.deviation;
@@ -77,7 +77,8 @@ fn lightThrough(light: LightParameters, receiver: Receiver, point: ShadowPoint, 
     let certainty = certaintyOf(receiver, point.texelSize, deviation);
     through *= certainty;
     if (receiver.authored > 0.0) { // where the map does not tell
-        through += cosine * (1.0 - certainty) * (1.0 - shadowed) * slabTransmittance(receiver.material, receiver.authored);
+        through += cosine * (1.0 - certainty) * (1.0 - shadowed) *
+                   slabTransmittance(receiver.material, receiver.authored / receiver.scale);
     }
     return vec4f(through, thickness);
 }
@@ -103,7 +104,7 @@ struct MapsAnswer {
 
 // The light's own map or its cascades, whose last that has the receiver tells what those before it leave.
 fn throughMaps(light: LightParameters, receiver: Receiver, toLight: vec3f, cosine: f32) -> MapsAnswer {
-    let inCascades = generalLights && light.cascadeCount > 0u;
+    let inCascades = generalCall && light.cascadeCount > 0u;
     let count = select(select(1u, 0u, light.shadowMap == noShadowMap), light.cascadeCount, inCascades);
     var sum = vec4f(0.0);
     var texelSize = 0.0;
@@ -173,12 +174,12 @@ fn transmitLight(light: LightParameters, receiver: Receiver) -> vec4f {
     var through = answer.through.rgb;
     var thickness = answer.through.w;
     if (!answer.isTold && receiver.authored > 0.0) {
-        through = slabTransmittance(receiver.material, receiver.authored) * cosine;
+        through = slabTransmittance(receiver.material, receiver.authored / receiver.scale) * cosine;
         thickness = receiver.authored;
     }
     if (any(through > vec3f(leastTwice))) {
         let tolerance = sameSurfaceTexels * answer.texelSize * parameters.view.mmPerUnit + sameSurfaceShare * thickness +
-                        sameSurfaceSpread * tables[receiver.material].spread;
+                        sameSurfaceSpread * spreadOf(receiver);
         through *= hiddenShare(receiver, incidence.toLight, thickness, tolerance);
     }
     return vec4f(through * incidence.irradiance, thickness);
@@ -226,7 +227,7 @@ fn main(@builtin(global_invocation_id) invocation: vec3u) {
     }
     let position = viewPosition(pixel, z);
     let receiver = Receiver(position, (parameters.view.worldFromView * vec4f(position, 1.0)).xyz, normal, slot,
-                            authoredAt(pixel, slot));
+                            authoredAt(pixel, slot), scaleAt(pixel));
     let translucency = translucencyAt(pixel, slot);
     var light = vec3f(0.0);
     var thickness = 1e30;

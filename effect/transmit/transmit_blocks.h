@@ -50,7 +50,7 @@ struct LightParameters {
     uint shadowLayer;
     float shadowTexel; // scene units, size of a texel where w is 1
     vec2 shadowSize; // texels
-    // The rest is read where the constant generalLights is true.
+    // The rest is read where the constant generalCall is true.
     // Hardware depth: from (texel, stored value, 1) to the homogeneous offset from `position`, of which a cube's face has the
     // length alone.
     mat4 offsetFromTexel;

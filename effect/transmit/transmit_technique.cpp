@@ -65,7 +65,7 @@ constexpr Pass passes[] = {
      .spirv = transmit_spv,
      .reads = bit(intermediateNoShadowMap),
      .grid = tiles<8, 16>,
-     .constants = severalShadowMaps | generalLights},
+     .constants = severalShadowMaps | generalCall},
 };
 
 } // namespace

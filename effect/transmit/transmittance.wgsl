@@ -4,11 +4,6 @@
 // [1] scale·d of the transmittance table at which nearness is 1/2.
 const nearnessHalf: f32 = 6.0;
 
-// [mm] Thickness that lets nothing through.
-fn reachOf(material: u32) -> f32 {
-    return f32(transmittanceEnd) / tables[material].scale;
-}
-
 fn tableEntry(material: u32, entry: u32) -> vec3f {
     let words = tables[material].transmittance[entry];
     return vec3f(unpack2x16float(words.x), unpack2x16float(words.y).x);

@@ -64,6 +64,7 @@ std::vector<NacreBinding> bindingsOf(CallKind kind, IntermediateSet used, VkExte
         image(NACRE_IMAGE_MATERIAL_ID, bindingMaterialId),
         image(NACRE_IMAGE_NORMAL, bindingNormal),
         image(NACRE_IMAGE_STRENGTH, bindingStrength),
+        image(NACRE_IMAGE_SCALE, bindingScale),
     };
     if (isScatter) {
         bindings.push_back(image(NACRE_IMAGE_IRRADIANCE, bindingIrradiance));

@@ -74,7 +74,7 @@ function uploadImage(device, frame, image) {
 }
 
 // The constants that passes have, as nacre_passes.h numbers them.
-const constantIds = {separateMaterials: 0, generalLights: 1, noMaterialIds: 1000, normalEncoding: 1001};
+const constantIds = {separateMaterials: 0, generalCall: 1, noMaterialIds: 1000, normalEncoding: 1001};
 
 // The pipelines that were made, by what they were made of.
 const pipelines = new Map();

@@ -167,14 +167,15 @@ typedef enum NacreImageSlot {
     NACRE_IMAGE_MATERIAL_ID = 2,
     NACRE_IMAGE_NORMAL = 3,
     NACRE_IMAGE_STRENGTH = 4,
-    NACRE_IMAGE_THICKNESS = 5,
-    NACRE_IMAGE_ALBEDO = 6,
-    NACRE_IMAGE_SHADOW_MAP = 7,
-    NACRE_IMAGE_SCATTERED = 8,
-    NACRE_IMAGE_TRANSMITTED = 9,
-    NACRE_IMAGE_THICKNESS_OUT = 10,
-    NACRE_IMAGE_COMPOSED = 11,
-    NACRE_IMAGE_SLOT_COUNT = 12,
+    NACRE_IMAGE_SCALE = 5,
+    NACRE_IMAGE_THICKNESS = 6,
+    NACRE_IMAGE_ALBEDO = 7,
+    NACRE_IMAGE_SHADOW_MAP = 8,
+    NACRE_IMAGE_SCATTERED = 9,
+    NACRE_IMAGE_TRANSMITTED = 10,
+    NACRE_IMAGE_THICKNESS_OUT = 11,
+    NACRE_IMAGE_COMPOSED = 12,
+    NACRE_IMAGE_SLOT_COUNT = 13,
     NACRE_IMAGE_SLOT_MAX_ENUM = 0x7fffffff
 } NacreImageSlot;
 
@@ -355,6 +356,10 @@ typedef struct NacreScatterInfo {
     float normalScale;        /**< 0 = 1 */
     float normalBias;
     NacreImage strength;      /**< optional, red: multiplies the material's strength; without it 1 */
+    NacreImage scale;         /**< optional, red, [1e-3, 1e3]: multiplies the lengths of the material's profile, as a map of
+                                   radii does; where light leaves decides. What lies beyond is the nearer of the two, what is
+                                   no number 1. `thesis`, whose radius is in texels, does not read it. Without it 1, and
+                                   nothing slower */
     NacreImage albedo;        /**< optional; without it the output is scattered irradiance and carries no albedo */
     uint32_t burleySampleBudget; /**< [1 … 256] most samples per pixel; 0 = 64 */
     uint32_t burleyRotation;     /**< turns the samples; equal values (modulo 64) give equal pictures. Counting frames
@@ -426,6 +431,8 @@ typedef struct NacreTransmitInfo {
     float normalBias;
     NacreImage thickness;         /**< optional, red in mm: as NacreMaterial::thickness, per pixel; 0 = not authored */
     NacreImage strength;          /**< optional, red: multiplies the material's translucency */
+    NacreImage scale;             /**< optional, red: as in NacreScatterInfo. A call that has it is as quick as one whose
+                                       lights have hardware depth */
     uint32_t lightCount;
     const NacreLight* lights;
     uint32_t shadowMapCount;      /**< [0 … NACRE_MAX_SHADOW_MAPS] images; quickest with one,

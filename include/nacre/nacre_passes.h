@@ -122,12 +122,13 @@ NACRE_API NacreResult nacreFillLights(const NacreTransmitInfo* info, const Nacre
 /* The specialization constants that a call's pipelines have as VK_TRUE, bits 1u << constant_id: of a pass, those that are
  * among its NacrePass::constants, too. Its others are VK_FALSE. */
 
-/** 0: some materials share no exchange group with some others. 1: there is an albedo or a strength image, or a material of
- *  strength below 1. images: as for nacreFillScatterParameters; materials: all that are set, of which the layers are not read. */
+/** 0: some materials share no exchange group with some others. 1: there is an image of albedo, strength or scale, or a
+ *  material of strength below 1. images: as for nacreFillScatterParameters; materials: all that are set, of which the layers are not read. */
 NACRE_API uint32_t nacreGetScatterConstants(uint32_t images, uint32_t materialCount, const NacreMaterial* materials);
 /** 0: there is more than one shadow map; without, all lights with a shadow map have the first. 1: a light has hardware depth,
- *  culled front faces, a rectangle, cascades or an attenuation. 0 where info is null. */
-NACRE_API uint32_t nacreGetTransmitConstants(const NacreTransmitInfo* info);
+ *  culled front faces, a rectangle, cascades or an attenuation, or there is an image of scales. images: as for
+ *  nacreFillTransmitParameters. 0 where info is null. */
+NACRE_API uint32_t nacreGetTransmitConstants(uint32_t images, const NacreTransmitInfo* info);
 
 #ifdef __cplusplus
 }

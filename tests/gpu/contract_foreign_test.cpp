@@ -52,20 +52,20 @@ public:
     }
 
     void scatter(const NacreScatterInfo& info, const ImagesBySlot& images) {
-        const std::uint32_t given =
-            bitsOf(images) & (1u << NACRE_IMAGE_NORMAL | 1u << NACRE_IMAGE_STRENGTH | 1u << NACRE_IMAGE_ALBEDO);
+        const std::uint32_t given = bitsOf(images) & (1u << NACRE_IMAGE_NORMAL | 1u << NACRE_IMAGE_STRENGTH |
+                                                      1u << NACRE_IMAGE_SCALE | 1u << NACRE_IMAGE_ALBEDO);
         const std::span<std::byte> parameters = contents("parameters");
         check(nacreFillScatterParameters(&info, given, nullptr, parameters.size(), parameters.data()));
         run(images, nacreGetScatterConstants(given, static_cast<std::uint32_t>(materials_.size()), materials_.data()));
     }
     void transmit(const NacreTransmitInfo& info, const ImagesBySlot& images) {
-        const std::uint32_t given = bitsOf(images) & (1u << NACRE_IMAGE_STRENGTH | 1u << NACRE_IMAGE_THICKNESS |
-                                                      1u << NACRE_IMAGE_THICKNESS_OUT);
+        const std::uint32_t given = bitsOf(images) & (1u << NACRE_IMAGE_STRENGTH | 1u << NACRE_IMAGE_SCALE |
+                                                      1u << NACRE_IMAGE_THICKNESS | 1u << NACRE_IMAGE_THICKNESS_OUT);
         const std::span<std::byte> parameters = contents("parameters");
         check(nacreFillTransmitParameters(&info, given, nullptr, parameters.size(), parameters.data()));
         const std::span<std::byte> lights = contents("lights");
         check(nacreFillLights(&info, nullptr, lights.size(), lights.data()));
-        run(images, nacreGetTransmitConstants(&info));
+        run(images, nacreGetTransmitConstants(given, &info));
     }
 
 private:
@@ -183,6 +183,7 @@ protected:
             input.materialId[i] = static_cast<std::uint16_t>(i / extent.width < 4 ? 0 : x < 30 ? 1 : 2);
             input.irradiance[i] = x / 8 % 2 == 0 ? Float4{1, 0.8f, 0.6f, 1} : Float4{0.1f, 0, 0, 1};
             input.depth[i] = 300 + 0.1f * static_cast<float>(x) + (x > 50 ? 40.0f : 0.0f);
+            input.scale.push_back(x % 10 < 5 ? 1.0f : 0.6f);
         }
         input.normal.assign(input.depth.size(), {0.196f, 0, 0.981f, 0});
         input.albedo.assign(input.depth.size(), {0.5f, 0.25f, 0.75f, 1});
@@ -190,7 +191,7 @@ protected:
     }
     ImagesBySlot import(const ScatterImages& images) {
         constexpr NacreImageSlot slots[] = {NACRE_IMAGE_IRRADIANCE, NACRE_IMAGE_DEPTH, NACRE_IMAGE_MATERIAL_ID,
-                                            NACRE_IMAGE_NORMAL, NACRE_IMAGE_ALBEDO};
+                                            NACRE_IMAGE_NORMAL,     NACRE_IMAGE_SCALE, NACRE_IMAGE_ALBEDO};
         ImagesBySlot imported;
         for (std::size_t i = 0; i < images.images.size(); ++i) {
             imported[slots[i]] = {device_.import(images.images[i])};

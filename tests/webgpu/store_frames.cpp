@@ -137,6 +137,7 @@ Case everythingCase() {
     for (std::uint32_t y = 0; y < input.extent.height; ++y) {
         for (std::uint32_t x = 0; x < input.extent.width; ++x) {
             input.strength.push_back(0.25f + 0.5f * static_cast<float>(x % 64) / 64);
+            input.scale.push_back(0.5f + static_cast<float>(x / 2 % 32) / 16);
             input.albedo.push_back({0.5f, 0.25f + 0.5f * static_cast<float>(y % 32) / 32, 0.75f, 1});
         }
     }
@@ -210,6 +211,7 @@ Case lightsCase() {
         result.input.materialId[i] = i / extent.width < 50 ? 1 : i % 7 == 0 ? 0 : 2;
         result.input.irradiance[i] = i % extent.width / 10 % 2 == 0 ? Float4{1, 0.8f, 0.6f, 1} : Float4{0, 0, 0, 1};
         result.thickness.push_back(i % 31 < 6 ? 2.5f : 0.0f);
+        result.input.scale.push_back(i % 17 < 8 ? 1.0f : 0.7f);
     }
     const std::vector<Material> materials{skin(), marble()};
     setMaterials(result, materials);
@@ -305,7 +307,8 @@ void addImages(Gpu& gpu, StoredFrame& stored, const ScatterImages& images) {
     const std::pair<const char*, const NacreImage*> slots[] = {
         {"irradiance", &images.info.irradiance}, {"depth", &images.info.depth},
         {"materialId", &images.info.materialId}, {"normal", &images.info.normal},
-        {"strength", &images.info.strength},     {"albedo", &images.info.albedo}};
+        {"strength", &images.info.strength},     {"scale", &images.info.scale},
+        {"albedo", &images.info.albedo}};
     std::size_t next = 0; // those that are given follow one another
     for (const auto& [name, slot] : slots) {
         if (slot->view != VK_NULL_HANDLE) {

@@ -171,7 +171,7 @@ nlohmann::json StoredFrame::callJson(const char* name, NacreTechnique technique,
 
 void StoredFrame::addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuImage& scattered) {
     const std::uint32_t images = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
-                                 bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
+                                 bitOf(NACRE_IMAGE_SCALE, info.scale) | bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
     const auto bindings = listed<NacreBinding>([&](std::uint32_t* count, NacreBinding* all) {
         return nacreGetBindings(NACRE_TECHNIQUE_BANK, extent_, count, all);
     });
@@ -186,7 +186,7 @@ void StoredFrame::addScatter(Gpu& gpu, const NacreScatterInfo& info, const GpuIm
 void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const GpuImage& transmitted,
                               const GpuImage& thickness) {
     const std::uint32_t images = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
-                                 bitOf(NACRE_IMAGE_THICKNESS, info.thickness) |
+                                 bitOf(NACRE_IMAGE_SCALE, info.scale) | bitOf(NACRE_IMAGE_THICKNESS, info.thickness) |
                                  bitOf(NACRE_IMAGE_THICKNESS_OUT, info.thicknessOut);
     const auto bindings = listed<NacreBinding>([&](std::uint32_t* count, NacreBinding* all) {
         return nacreGetBindings(NACRE_TECHNIQUE_TRANSMIT, extent_, count, all);
@@ -199,7 +199,7 @@ void StoredFrame::addTransmit(Gpu& gpu, const NacreTransmitInfo& info, const Gpu
     check(nacreFillLights(&info, &messages, lights.size(), lights.data()));
     nlohmann::json call =
         callJson("transmit", NACRE_TECHNIQUE_TRANSMIT, areaOf(info.view, info.depth.extent), parameters, lights);
-    call["constants"]["generalLights"] = nacreGetTransmitConstants(&info) >> 1 & 1u;
+    call["constants"]["generalCall"] = nacreGetTransmitConstants(images, &info) >> 1 & 1u;
     call["expected"]["transmitted"] = imageJson(gpu, "transmitted", transmitted);
     call["expected"]["thicknessOut"] = imageJson(gpu, "thicknessOut", thickness);
     json_["calls"].push_back(call);

@@ -38,6 +38,7 @@ struct Receiver {
     ivec2 local;
     uint material;
     vec3 position;
+    float scale; // of the profile's lengths
 };
 
 // Abramowitz and Stegun 7.1.26, |error| < 1.5e-7.
@@ -227,7 +228,7 @@ void addFar(Receiver receiver, Window window, float radius, inout Sum sum) {
             BrutePixel pixel = pixelAt(receiver, ivec2(x, y));
             float share = distance(pixel.position.xyz, receiver.position) / radius;
             if (pixel.light.w > 0.0 && share < 1.0) {
-                vec3 weight = radialAt(receiver.material, share) * pixel.light.w;
+                vec3 weight = radialAt(receiver.material, share) * (pixel.light.w / (receiver.scale * receiver.scale));
                 sum.light += weight * pixel.light.rgb;
                 sum.weight += weight;
             }
@@ -240,10 +241,10 @@ Sum nearSum(Receiver receiver) {
     Sum sum = Sum(vec3(0.0), vec3(0.0));
     uint layerCount = uint(tables[receiver.material].meanFreePath.w);
     for (uint layer = 0u; layer < layerCount; ++layer) {
-        addLayer(receiver, tables[receiver.material].layers[layer], sum);
+        addLayer(receiver, tables[receiver.material].layers[layer] * vec4(1.0, 1.0, 1.0, receiver.scale * receiver.scale), sum);
     }
     if (layerCount == 0u) {
-        addBurley(receiver, tables[receiver.material].meanFreePath.rgb, sum);
+        addBurley(receiver, receiver.scale * tables[receiver.material].meanFreePath.rgb, sum);
     }
     return sum;
 }
@@ -262,11 +263,11 @@ void main() {
         }
         return;
     }
-    Receiver receiver = Receiver(local, material, viewPosition(pixel, z));
+    Receiver receiver = Receiver(local, material, viewPosition(pixel, z), scaleAt(pixel));
     int rows = int(bruteBandRows(uint(view.areaExtent.x)));
     int firstRow = int(band) * rows;
     bool isLast = firstRow + rows >= view.areaExtent.y;
-    float radius = materials[material].radius;
+    float radius = receiver.scale * materials[material].radius;
     Window window = windowOf(receiver, radius);
     window.low.y = max(window.low.y, firstRow - local.y);
     window.high.y = min(window.high.y, firstRow + rows - 1 - local.y);

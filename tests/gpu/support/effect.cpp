@@ -146,7 +146,7 @@ ScatterInput ScatterInput::plane(std::uint32_t width, std::uint32_t height, cons
 
 ScatterImages::ScatterImages(Gpu& gpu, const ScatterInput& input, const ScatterFormats& formats) {
     info.view = input.view;
-    images.reserve(6);
+    images.reserve(7);
     const auto add = [&](NacreImage& slot, VkFormat format, auto&& upload) {
         const bool isDepth = format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM;
         images.push_back(gpu.createImage({.format = format,
@@ -166,6 +166,9 @@ ScatterImages::ScatterImages(Gpu& gpu, const ScatterInput& input, const ScatterF
     if (!input.strength.empty()) {
         add(info.strength, VK_FORMAT_R32_SFLOAT, [&](GpuImage& image) { gpu.upload(image, input.strength); });
     }
+    if (!input.scale.empty()) {
+        add(info.scale, VK_FORMAT_R32_SFLOAT, [&](GpuImage& image) { gpu.upload(image, input.scale); });
+    }
     if (!input.albedo.empty()) {
         add(info.albedo, formats.albedo, [&](GpuImage& image) { uploadLight(gpu, image, input.albedo); });
     }
@@ -184,6 +187,7 @@ NacreTransmitInfo ScatterImages::transmitInfo(std::span<const NacreLight> lights
     result.materialId = info.materialId;
     result.normal = info.normal;
     result.strength = info.strength;
+    result.scale = info.scale;
     result.lights = lights.data();
     result.lightCount = static_cast<std::uint32_t>(lights.size());
     result.shadowMaps = shadowMaps.data();

@@ -42,6 +42,7 @@ struct ScatterInput {
     std::vector<std::uint16_t> materialId;
     std::vector<Float4> normal; ///< world space, unit length
     std::vector<float> strength;
+    std::vector<float> scale;
     std::vector<Float4> albedo;
 
     /// Everything sized and set: a plane of material 1 that faces the camera, lit evenly by 1.

@@ -221,8 +221,8 @@ void PartsEngine::scatter(VkCommandBuffer commandBuffer, const NacreScatterInfo&
     const std::map<NacreImageSlot, NacreImage> images = {
         {NACRE_IMAGE_IRRADIANCE, info.irradiance},  {NACRE_IMAGE_DEPTH, info.depth},
         {NACRE_IMAGE_MATERIAL_ID, info.materialId}, {NACRE_IMAGE_NORMAL, info.normal},
-        {NACRE_IMAGE_STRENGTH, info.strength},      {NACRE_IMAGE_ALBEDO, info.albedo},
-        {NACRE_IMAGE_SCATTERED, info.scattered}};
+        {NACRE_IMAGE_STRENGTH, info.strength},      {NACRE_IMAGE_SCALE, info.scale},
+        {NACRE_IMAGE_ALBEDO, info.albedo},          {NACRE_IMAGE_SCATTERED, info.scattered}};
     for (const NacreBinding& binding : bindings_) {
         const auto image = images.find(binding.image);
         bind(binding, image != images.end() ? std::span(&image->second, 1) : std::span<const NacreImage>(),
@@ -231,7 +231,7 @@ void PartsEngine::scatter(VkCommandBuffer commandBuffer, const NacreScatterInfo&
     const Buffer& parameters = buffers_.at("parameters");
     // [snippet: parts-parameters]
     const std::uint32_t optional = bitOf(NACRE_IMAGE_NORMAL, info.normal) | bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
-                                   bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
+                                   bitOf(NACRE_IMAGE_SCALE, info.scale) | bitOf(NACRE_IMAGE_ALBEDO, info.albedo);
     check(nacreFillScatterParameters(&info, optional, &messages, parameters.binding.head, parameters.mapped));
     const std::uint32_t constants =
         nacreGetScatterConstants(optional, static_cast<std::uint32_t>(materials_.size()), materials_.data());
@@ -245,6 +245,7 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
                                                          {NACRE_IMAGE_MATERIAL_ID, info.materialId},
                                                          {NACRE_IMAGE_NORMAL, info.normal},
                                                          {NACRE_IMAGE_STRENGTH, info.strength},
+                                                         {NACRE_IMAGE_SCALE, info.scale},
                                                          {NACRE_IMAGE_THICKNESS, info.thickness},
                                                          {NACRE_IMAGE_TRANSMITTED, info.transmitted},
                                                          {NACRE_IMAGE_THICKNESS_OUT, info.thicknessOut}};
@@ -257,7 +258,7 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
         bind(binding, image != images.end() ? std::span(&image->second, 1) : std::span<const NacreImage>(),
              binding.image == NACRE_IMAGE_THICKNESS_OUT ? info.transmitted : info.normal);
     }
-    const std::uint32_t optional = bitOf(NACRE_IMAGE_STRENGTH, info.strength) |
+    const std::uint32_t optional = bitOf(NACRE_IMAGE_STRENGTH, info.strength) | bitOf(NACRE_IMAGE_SCALE, info.scale) |
                                    bitOf(NACRE_IMAGE_THICKNESS, info.thickness) |
                                    bitOf(NACRE_IMAGE_THICKNESS_OUT, info.thicknessOut);
     const Buffer& parameters = buffers_.at("parameters");
@@ -265,7 +266,7 @@ void PartsEngine::transmit(VkCommandBuffer commandBuffer, const NacreTransmitInf
     const Buffer& lights = buffers_.at("lights");
     check(nacreFillLights(&info, &messages, info.lightCount * lights.binding.stride, lights.mapped));
     const VkExtent2D area = info.view.renderArea.extent;
-    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, nacreGetTransmitConstants(&info));
+    recordPasses(commandBuffer, area.width != 0 ? area : info.depth.extent, nacreGetTransmitConstants(optional, &info));
 }
 
 void PartsEngine::recordPasses(VkCommandBuffer commandBuffer, VkExtent2D area, std::uint32_t constants) {
