@@ -10,14 +10,14 @@ namespace nacre::bench {
 namespace {
 
 constexpr Size fullSizes[] = {{1920, 1080}, {3840, 2160}};
-constexpr Size quickSizes[] = {{192, 108}};
+constexpr Size quickSizes[] = {{128, 72}};
 constexpr double fullScales[] = {0.5, 1, 2};
 constexpr double quickScales[] = {1};
 constexpr std::uint32_t fullShadowMapSize = 2048;
 constexpr std::uint32_t quickShadowMapSize = 512;
 constexpr std::size_t closeUpCount = 2;
 constexpr Size pictureSize = {800, 450};
-constexpr Size quickPictureSize = {192, 108};
+constexpr Size quickPictureSize = {128, 72};
 
 // The view's materials, `scale` times as wide.
 std::vector<Material> scaled(const View& view, double scale) {

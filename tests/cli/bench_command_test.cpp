@@ -39,6 +39,13 @@ protected:
         return {readText(folder() / "browser.out"), readText(folder() / "browser.log")};
     }
 
+    /// A scene that is made in no time. Returns the files.
+    std::vector<std::string> writeCube() const {
+        writeText(folder() / "cube.obj", cubeObj);
+        writeText(folder() / "scene.json", R"({"models": [{"model": "cube.obj", "material": "skin"}]})");
+        return files();
+    }
+
     void makeReport() const {
         write("results.json", bench::sample::thesisResults());
         const bench::sample::Pictures pictures;
@@ -72,24 +79,27 @@ void waitUntilItSays(const RunningNacre& nacre, const std::string& text) {
 
 // Ctrl-C while it measures: it ends by that signal, and leaves no folder.
 TEST_F(BenchTest, AnInterruptedRunLeavesNothing) {
-    const RunningNacre bench({"bench", "thesis", "--quick", "-o", "results"}, folder());
-    waitUntilItSays(bench, "warming up");
+    const std::vector<std::string> before = writeCube();
+    const RunningNacre bench({"bench", "pareto", "--quick", "--scene", "scene.json", "-o", "results"}, folder());
+    waitUntilItSays(bench, "comparing with brute");
     EXPECT_TRUE(std::filesystem::exists(folder() / "results")) << bench.error();
     bench.send(SIGINT);
     EXPECT_EQ(bench.wait().exitCode, 128 + SIGINT);
-    EXPECT_EQ(files(), std::vector<std::string>{});
+    EXPECT_EQ(files(), before);
 }
 
 // A second run is told at once that it cannot have the folder, and what somebody else puts there is not the run's.
 TEST_F(BenchTest, ARunKeepsItsFolderAndOnlyItsOwn) {
-    const RunningNacre bench({"bench", "thesis", "--quick", "-o", "both"}, folder());
+    std::vector<std::string> left = writeCube();
+    const RunningNacre bench({"bench", "pareto", "--quick", "--scene", "scene.json", "-o", "both"}, folder());
     waitUntilItSays(bench, "making the scenes");
     expectComplaint(run({"bench", "pareto", "--quick", "-o", "both"}), 1, {"both", "another benchmark"});
     writeText(folder() / "both/other", "somebody's");
-    waitUntilItSays(bench, "warming up");
+    waitUntilItSays(bench, "comparing with brute");
     bench.send(SIGTERM);
     EXPECT_EQ(bench.wait().exitCode, 128 + SIGTERM);
-    ASSERT_EQ(files(), (std::vector<std::string>{"both", "both/other"}));
+    left.insert(left.begin(), {"both", "both/other"});
+    ASSERT_EQ(files(), left);
     EXPECT_EQ(readText(folder() / "both/other"), "somebody's");
 }
 
@@ -135,8 +145,7 @@ TEST_F(BenchTest, LeavesNothingWhenItFails) {
 }
 
 TEST_F(BenchTest, ParetoOfASmallSceneIsComplete) {
-    writeText(folder() / "cube.obj", cubeObj);
-    writeText(folder() / "scene.json", R"({"models": [{"model": "cube.obj", "material": "skin"}]})");
+    writeCube();
     const Outcome outcome = run({"bench", "pareto", "--quick", "--scene", "scene.json", "-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
     const std::string json = readText(folder() / "out/results.json");
