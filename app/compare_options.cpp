@@ -39,7 +39,7 @@ void requireBound(const std::optional<double>& bound, double low, double high, c
 }
 
 /// No output may replace another one or an input.
-void requireDistinctFiles(const CompareOptions& options) {
+void requireDistinctPictures(const CompareOptions& options) {
     const std::filesystem::path inputs[] = {options.test,   options.reference, options.materialImage,
                                             options.report, options.variance,  options.mask};
     std::vector<std::filesystem::path> outputs{options.difference, options.heat, options.json};
@@ -147,7 +147,7 @@ CompareOptions CompareOptionParser::finish() const {
     if (options.materials.empty() && (!options.materialImage.empty() || !options.report.empty())) {
         throw UsageError("--material-image and --report need --material");
     }
-    requireDistinctFiles(options);
+    requireDistinctPictures(options);
     return options;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using reference::Method;
 
-constexpr double defaultNoise = 2; // %
+constexpr double defaultReferenceNoise = 2; // %
 constexpr std::uint32_t maxParts = 1000000;
 constexpr std::uint32_t maxReferenceSpp = 100000000;
 constexpr unsigned maxThreads = 4096;
@@ -138,7 +138,7 @@ ReferenceOptions ReferenceOptionParser::finish() const {
         requireRange(*seconds_, 1e-3, 1e9, "--time");
     }
     const bool noneGiven = !spp_ && !seconds_ && !noise_;
-    const std::optional<double> noise = noneGiven ? defaultNoise : noise_;
+    const std::optional<double> noise = noneGiven ? defaultReferenceNoise : noise_;
     if (noise) {
         requireRange(*noise, 1e-3, 100, "--noise");
         options.stop.noise = *noise / 100;

@@ -10,7 +10,7 @@ namespace nacre::view {
 namespace {
 
 constexpr float spacing = 45;      // mm, from body to body
-constexpr float half = 12.5f;      // of a square
+constexpr float halfSide = 12.5f;  // of a square
 constexpr float plateDepth = 10;   // mm
 constexpr float ballRadius = 10;   // mm
 constexpr float thinnest = 0.2f;   // mm, of the wedge
@@ -38,8 +38,8 @@ void addQuad(scene::Mesh& mesh, const std::array<glm::vec3, 4>& corners) {
 /// A body with a flat front at z = 0, a square; its back is `left` and `right` mm behind at its sides.
 scene::Mesh makeBlock(const char* name, float left, float right) {
     scene::Mesh mesh{.name = name};
-    const std::array<glm::vec3, 4> front{glm::vec3(-half, -half, 0), glm::vec3(half, -half, 0),
-                                         glm::vec3(half, half, 0), glm::vec3(-half, half, 0)};
+    const std::array<glm::vec3, 4> front{glm::vec3(-halfSide, -halfSide, 0), glm::vec3(halfSide, -halfSide, 0),
+                                         glm::vec3(halfSide, halfSide, 0), glm::vec3(-halfSide, halfSide, 0)};
     std::array<glm::vec3, 4> back = front;
     for (glm::vec3& corner : back) {
         corner.z = corner.x < 0 ? -left : -right;
@@ -58,7 +58,7 @@ scene::Mesh makeBlocker() {
     scene::Mesh mesh{.name = "blocker"};
     constexpr float edge = -0.75f * blockerDepth;
     constexpr float width = 20;
-    constexpr float height = 2 * half;
+    constexpr float height = 2 * halfSide;
     addQuad(mesh, {glm::vec3(edge - width, -height, blockerDepth), glm::vec3(edge, -height, blockerDepth),
                    glm::vec3(edge, height, blockerDepth), glm::vec3(edge - width, height, blockerDepth)});
     return mesh;
