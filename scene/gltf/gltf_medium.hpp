@@ -22,6 +22,12 @@ struct GltfMedium {
 /// [mm] Thickness given to thin walls: so thin that nothing is lost on the way through.
 inline constexpr double thinWallThickness = 0.01;
 
+/// [mm] d of a dense medium in that channel where its multiscatterColor is `color`.
+double denseMeanFreePath(const GltfMedium& medium, int channel, double color);
+
+/// Whether the medium is dense: a volume that scatters, and that light enters.
+bool isDense(const GltfMedium& medium);
+
 /// The subsurface material, or nothing for a medium that does not scatter:
 ///  - dense media (volume with scattering): A = multiscatterColor; single-scattering albedo α by Kulla and Conty's
 ///    inversion; σt = −ln(attenuationColor)/attenuationDistance; ℓ' = 1/(σt(1 − αg)); d = ℓ'/s(A) with
