@@ -14,7 +14,8 @@ std::optional<Wall> wallOf(const Material& material, const trace::SurfacePoint& 
     const glm::dvec3 albedo(point.albedo);
     glm::dvec3 color = albedo;
     if (const auto& own = material.diffuseTransmissionColor) {
-        color = glm::dvec3((*own)[0], (*own)[1], (*own)[2]) * glm::dvec3(point.transmissionColor.value_or(glm::vec3(1)));
+        color =
+            glm::dvec3((*own)[0], (*own)[1], (*own)[2]) * glm::dvec3(point.transmissionColor.value_or(glm::vec3(1)));
     } else if (point.transmissionColor) {
         color = glm::dvec3(*point.transmissionColor);
     }

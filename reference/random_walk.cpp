@@ -201,8 +201,7 @@ glm::dvec3 RandomWalk::radiance(const trace::SurfacePoint& point, bool seenFromB
     }
     glm::dvec3 sum(0);
     if (const std::optional<Exit> exit = walk(medium, point.material, start, direction, random, incidents)) {
-        sum = strength * toVector(medium.gain) * exit->weight *
-              light_.entering(geometry_.surfaceAt(exit->hit), random);
+        sum = strength * toVector(medium.gain) * exit->weight * light_.entering(geometry_.surfaceAt(exit->hit), random);
     }
     if (strength < 1) {
         const trace::Side side = seenFromBehind ? trace::Side::Back : trace::Side::Front;

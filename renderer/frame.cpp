@@ -270,8 +270,8 @@ void Frame::Implementation::recordEffectOnce(const vk::raii::CommandBuffer& comm
                                              const View& view) {
     subsurface.record(commandBuffer,
                       {view, placement.placed().lights, picture->gbuffer, picture->lighting.irradiance(),
-                       shadowMaps.image(), picture->subsurface, timers[frame], scene.hasScale(),
-                       scene.hasStrength(), scene.hasTextures(&scene::Surface::transmissionTexture)},
+                       shadowMaps.image(), picture->subsurface, timers[frame], scene.hasScale(), scene.hasStrength(),
+                       scene.hasTextures(&scene::Surface::transmissionTexture)},
                       settings);
 }
 

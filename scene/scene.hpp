@@ -92,8 +92,8 @@ struct Surface {
     std::uint32_t emissionTexture = none;          ///< RGB, multiplies `emission`
     std::uint32_t scaleTexture = none;             ///< R, linear, multiplies `scale`
     std::uint32_t transmissionTexture = none;      ///< A, multiplies the share of the light that comes through
-    /// RGB, the colour of the light that comes through: multiplies the material's diffuseTransmissionColor, or stands in
-    /// for the albedo where there is none. Of thin walls and bodies alike.
+    /// RGB, the colour of the light that comes through: multiplies the material's diffuseTransmissionColor, or stands
+    /// in for the albedo where there is none. Of thin walls and bodies alike.
     std::uint32_t transmissionColorTexture = none;
     TextureCoordinates baseColorUv;
     TextureCoordinates normalUv;

@@ -44,7 +44,7 @@ struct SurfacePoint : Place {
     float shareFactor = 1;                      ///< on the share of the light that comes through
     float strengthFactor = 1;                   ///< on the material's strength
     std::optional<glm::vec3> transmissionColor; ///< of what comes through, where a texture has it
-    std::uint32_t material = scene::none; ///< index into Scene::materials
+    std::uint32_t material = scene::none;       ///< index into Scene::materials
     bool doubleSided = false;
 };
 

@@ -40,17 +40,16 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent, std::size_
                                  vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
     const auto pixels = [&](Image& image) { return sampled(image, inputs.nearest); };
     Environment& environment = inputs.environment;
-    radiancePass_ =
-        ComputePass(gpu, "compose", compose_picture_comp_spv,
-                    {uniform(gbuffer.view()), uniform(environment.constants()), storage(transmissions_),
-                     pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
-                     pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
-                     pixels(inputs.lighting.irradiance()), pixels(inputs.lighting.specular()),
-                     pixels(inputs.subsurface.scattered), pixels(inputs.subsurface.transmitted),
-                     sampled(environment.radiance(), environment.sampler()), pixels(inputs.occlusion.visibility()),
-                     pixels(gbuffer.image(GBuffer::Transmission)), pixels(inputs.blended.image()),
-                     pixels(gbuffer.image(GBuffer::VertexNormal)), written(radiance_)},
-                    sizeof(RadiancePush));
+    radiancePass_ = ComputePass(
+        gpu, "compose", compose_picture_comp_spv,
+        {uniform(gbuffer.view()), uniform(environment.constants()), storage(transmissions_),
+         pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
+         pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
+         pixels(inputs.lighting.irradiance()), pixels(inputs.lighting.specular()), pixels(inputs.subsurface.scattered),
+         pixels(inputs.subsurface.transmitted), sampled(environment.radiance(), environment.sampler()),
+         pixels(inputs.occlusion.visibility()), pixels(gbuffer.image(GBuffer::Transmission)),
+         pixels(inputs.blended.image()), pixels(gbuffer.image(GBuffer::VertexNormal)), written(radiance_)},
+        sizeof(RadiancePush));
     colorPass_ =
         ComputePass(gpu, "tone map", tone_map_comp_spv, {pixels(radiance_), written(color_)}, sizeof(ColorPush));
 }

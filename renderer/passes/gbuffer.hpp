@@ -17,14 +17,14 @@ public:
     enum Attachment : std::size_t {
         Depth,         ///< R32F, linear depth in scene units; the far plane where there is nothing
         ShadingNormal, ///< RGBA16F, world space, with the normal map; w is 1 on surfaces, 0 where there is nothing
-        VertexNormal,  ///< RGBA16F, world space, without the normal map; w: Surface::scale with its texture, 0 where there
-                       ///< is nothing
-        Albedo,        ///< RGBA16F, diffuse albedo: base colour · (1 − metallic); w: what the transmission texture says
+        VertexNormal,  ///< RGBA16F, world space, without the normal map; w: scale of the material's lengths
+        Albedo,        ///< RGBA16F, diffuse: base colour · (1 − metallic); w: factor on the share that comes through
         Reflection,    ///< RGBA16F, F0 in rgb, GGX perceptual roughness in a
         Emission,      ///< RGBA16F; w: factor on the material's strength
         MaterialId,    ///< R16_UINT, index into Scene::materials + 1; 0 = no subsurface scattering
-        Transmission,  ///< authored thickness in mm, 0 = none: R16F. In scenes with textures of the colour of what
-                       ///< comes through RGBA16F: gba is that colour, negative = as the material has it
+        /// R16F, authored thickness in mm; 0 = none. RGBA16F where surfaces have textures of the colour of what comes
+        /// through: gba is that colour, negative = as the material has it.
+        Transmission,
         AttachmentCount
     };
 

@@ -230,15 +230,18 @@ TEST(GltfExtensions, MapDenseMediaInBothSpellings) {
 }
 
 /// A PNG of two texels: (255, 188, 0) and (188, 64, 128).
-const std::string twoTexels = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4v4dhj0MDAAzhAzjSsCbOAAAAAElFTkSuQmCC";
+const std::string twoTexels =
+    "data:image/"
+    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4v4dhj0MDAAzhAzjSsCbOAAAAAElFTkSuQmCC";
 
 TEST(GltfExtensions, MakeLengthsOfATextureOfColours) {
     const std::array factor{1.0, 0.5, 1.0};
     const auto squareOf = [&](const Json& colors) {
-        GltfBuilder builder = squareWith(
-            {{"KHR_materials_volume", volume},
-             {"KHR_materials_volume_scatter",
-              {{"multiscatterColorFactor", factor}, {"scatterAnisotropy", 0.5}, {"multiscatterColorTexture", colors}}}});
+        GltfBuilder builder = squareWith({{"KHR_materials_volume", volume},
+                                          {"KHR_materials_volume_scatter",
+                                           {{"multiscatterColorFactor", factor},
+                                            {"scatterAnisotropy", 0.5},
+                                            {"multiscatterColorTexture", colors}}}});
         builder.json["images"] = {{{"uri", twoTexels}}};
         builder.json["textures"] = {{{"source", 0}}};
         return builder;
@@ -251,7 +254,7 @@ TEST(GltfExtensions, MakeLengthsOfATextureOfColours) {
     EXPECT_FALSE(lengths.srgb);
     ASSERT_EQ(lengths.pixels.size(), 8u);
     const std::array<double, 256> linear = linearValues(true);
-    const GltfMedium medium{.attenuationDistance = 0.004, .attenuationColor = {0.5, 0.25, 0.125}, .anisotropy = 0.5};
+    const GltfMedium medium{.attenuationDistance = 0.004, .attenuationColor = {0.5f, 0.25f, 0.125f}, .anisotropy = 0.5};
     for (std::size_t texel = 0; texel < 2; ++texel) {
         double expected = 0;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -268,11 +271,15 @@ TEST(GltfExtensions, MakeLengthsOfATextureOfColours) {
 }
 
 TEST(GltfExtensions, MakeNoLengthsOfOneColour) {
-    GltfBuilder builder = squareWith(
-        {{"KHR_materials_volume", volume}, {"KHR_materials_volume_scatter", {{"multiscatterColorFactor", {0, 0.5, 0}},
-                                            {"multiscatterColorTexture", {{"index", 0}}}}}});
+    GltfBuilder builder =
+        squareWith({{"KHR_materials_volume", volume},
+                    {"KHR_materials_volume_scatter",
+                     {{"multiscatterColorFactor", {0, 0.5, 0}}, {"multiscatterColorTexture", {{"index", 0}}}}}});
     // Green of both texels is the same.
-    builder.json["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4n8KwJ6UBAAtxAwQ0eAJWAAAAAElFTkSuQmCC"}}};
+    builder.json["images"] = {
+        {{"uri", "data:image/"
+                 "png;base64,"
+                 "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4n8KwJ6UBAAtxAwQ0eAJWAAAAAElFTkSuQmCC"}}};
     builder.json["textures"] = {{{"source", 0}}};
     const Scene scene = builder.load();
     EXPECT_EQ(scene.surfaces.at(0).scaleTexture, none);

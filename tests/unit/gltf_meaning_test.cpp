@@ -247,14 +247,14 @@ const std::string clearPixel =
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4v4fBGAAGaAHvALWOcAAAAABJRU5ErkJggg==";
 
 TEST(GltfMeaning, DiffuseTransmissionHasTextures) {
-    GltfBuilder builder = texturedSquare({{"extensions",
-                                           {{"KHR_materials_diffuse_transmission",
-                                             {{"diffuseTransmissionFactor", 0.5},
-                                              {"diffuseTransmissionTexture", {{"index", 0}}},
-                                              {"diffuseTransmissionColorFactor", {0.5, 0.5, 0.5}},
-                                              {"diffuseTransmissionColorTexture",
-                                               {{"index", 0},
-                                                {"extensions", {{"KHR_texture_transform", {{"scale", {2, 1}}}}}}}}}}}}});
+    GltfBuilder builder =
+        texturedSquare({{"extensions",
+                         {{"KHR_materials_diffuse_transmission",
+                           {{"diffuseTransmissionFactor", 0.5},
+                            {"diffuseTransmissionTexture", {{"index", 0}}},
+                            {"diffuseTransmissionColorFactor", {0.5, 0.5, 0.5}},
+                            {"diffuseTransmissionColorTexture",
+                             {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 1}}}}}}}}}}}}});
     builder.json["images"][0]["uri"] = clearPixel;
     const Scene scene = builder.load();
     EXPECT_DOUBLE_EQ(scene.materials.at(0).diffuseTransmission, 0.5);

@@ -138,8 +138,9 @@ TEST(SurfaceIntegralScaleTest, LengthsAreTheSurfacesTimesTheMaterials) {
     const BurleyProfile wide({2, 1, 0.5});
     for (const float x : {-0.5f, 1.0f}) {
         SCOPED_TRACE(x);
-        expectClose(scatteredBelow(scene, {x, 4, 0}, 12000),
-                    {wide.lineSpreadCumulative(0, x), wide.lineSpreadCumulative(1, x), wide.lineSpreadCumulative(2, x)});
+        expectClose(
+            scatteredBelow(scene, {x, 4, 0}, 12000),
+            {wide.lineSpreadCumulative(0, x), wide.lineSpreadCumulative(1, x), wide.lineSpreadCumulative(2, x)});
     }
 }
 
