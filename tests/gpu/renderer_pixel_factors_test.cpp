@@ -26,7 +26,7 @@ using Texel = std::array<std::uint8_t, 4>;
 renderer::RenderSettings halvesSettings() {
     renderer::RenderSettings settings = plainSettings();
     settings.width = settings.height = side;
-    settings.shadowMapSize = 1000;
+    settings.shadowMapSize = 512;
     settings.scatter = settings.transmit = true;
     return settings;
 }
@@ -61,6 +61,7 @@ scene::Scene wallScene() {
 /// A slab under a lamp behind, a shadow edge of one in front, and surroundings that are brighter behind.
 scene::Scene slabScene() {
     scene::Scene scene = pictureOf(box({0.0202f, 0.0202f, 0.001f}), *findPreset("skin"));
+    scene.materials[0].secondSurfaces = false; // which would have pipelines of its own to compile
     scene.surfaces[0].thickness = 1;
     scene.lights = {directional({0, 0, 1}, 3), directional(glm::normalize(glm::vec3(0, -1, -1)), 3)};
     add(scene, square(0.2f), glm::translate(glm::mat4(1), glm::vec3(0, 0.15f, 0.05f))).doubleSided = true;
@@ -122,7 +123,7 @@ void expectReference(const scene::Scene& scene, const renderer::Offscreen& rende
     settings.method = method;
     settings.width = settings.height = side;
     reference::Reference exact(scene, scene.cameras[0], settings);
-    exact.run({.spp = 4}, [](const reference::Progress&) { return true; });
+    exact.run({.spp = 2}, [](const reference::Progress&) { return true; });
     for (const std::uint32_t first : {10u, 60u}) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
             double expected = 0;
@@ -165,24 +166,19 @@ TEST_F(PixelFactors, AThinWallHasItsShareAndItsColourInEveryPixel) {
 
 TEST_F(PixelFactors, ABodyHasItsLengthsStrengthAndTranslucencyInEveryPixel) {
     const scene::Scene plain = slabScene();
-    scene::Scene textured = slabScene();
+    scene::Scene textured = plain;
     setHalves(textured, &scene::Surface::scaleTexture, {64, 0, 0, 255}, {255, 0, 0, 255});
     setHalves(textured, &scene::Surface::transmissionTexture, {0, 0, 0, 51}, {0, 0, 0, 255});
     textured.surfaces[0].scale = largestScale;
+    textured.surfaces[0].transmissionSetsStrength = true;
+    const Pixels picture = render(textured, halvesSettings()).read(Output::Radiance);
     renderer::Offscreen plainRenderer(device(), plain, halvesSettings());
-    for (const bool setsStrength : {false, true}) {
-        textured.surfaces[0].transmissionSetsStrength = setsStrength;
-        renderer::Offscreen texturedRenderer(device(), textured, halvesSettings());
-        const Pixels picture = radianceOf(texturedRenderer, textured, plain.materials[0]);
-        Material material = plain.materials[0];
-        material.scale = static_cast<double>(largestScale);
-        const Pixels right = radianceOf(plainRenderer, plain, material);
-        material.scale = leftScale;
-        material.translucency = leftShare;
-        material.strength = setsStrength ? leftShare : 1;
-        expectHalves(picture, radianceOf(plainRenderer, plain, material), right,
-                     setsStrength ? "what does not enter does not scatter" : "translucency");
-    }
+    Material material = plain.materials[0];
+    material.scale = static_cast<double>(largestScale);
+    const Pixels right = radianceOf(plainRenderer, plain, material);
+    material.scale = leftScale;
+    material.translucency = material.strength = leftShare;
+    expectHalves(picture, radianceOf(plainRenderer, plain, material), right, "a slab");
 }
 
 } // namespace
