@@ -6,15 +6,18 @@ namespace nacre::reference {
 
 using trace::Side;
 
-std::optional<Wall> wallOf(const Material& material, const glm::dvec3& albedo, bool seenFromBehind) {
-    const double share = material.diffuseTransmission;
-    if (!(share > 0)) {
+std::optional<Wall> wallOf(const Material& material, const trace::SurfacePoint& point, bool seenFromBehind) {
+    if (!(material.diffuseTransmission > 0)) {
         return std::nullopt;
     }
+    const double share = material.diffuseTransmission * static_cast<double>(point.shareFactor);
+    const glm::dvec3 albedo(point.albedo);
     glm::dvec3 color = albedo;
-    if (material.diffuseTransmissionColor) {
-        const Rgb& own = *material.diffuseTransmissionColor;
-        color = {own[0], own[1], own[2]};
+    if (const auto& own = material.diffuseTransmissionColor) {
+        color =
+            glm::dvec3((*own)[0], (*own)[1], (*own)[2]) * glm::dvec3(point.transmissionColor.value_or(glm::vec3(1)));
+    } else if (point.transmissionColor) {
+        color = glm::dvec3(*point.transmissionColor);
     }
     return Wall{seenFromBehind ? Side::Back : Side::Front, (1 - share) * albedo, share * color};
 }

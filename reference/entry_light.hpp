@@ -14,8 +14,8 @@ struct Wall {
     glm::dvec3 farWeight{0};                   ///< f · colour of what comes through
 };
 
-/// The material's wall under a surface of this albedo; nothing when it is of closed bodies.
-std::optional<Wall> wallOf(const Material& material, const glm::dvec3& albedo, bool seenFromBehind);
+/// The material's wall at a point, with its albedo and what textures say there; nothing when it is of closed bodies.
+std::optional<Wall> wallOf(const Material& material, const trace::SurfacePoint& point, bool seenFromBehind);
 
 /// Irradiance at entry points. Without an image it is traced. With the irradiance image of `nacre render` (--aov
 /// irradiance=FILE) points that the camera sees take the pixel they fall on, so that the renderer's shadow maps and its

@@ -184,10 +184,11 @@ std::optional<RandomWalk::Exit> RandomWalk::walk(const WalkMedium& medium, std::
 glm::dvec3 RandomWalk::radiance(const trace::SurfacePoint& point, bool seenFromBehind, trace::Random& random,
                                 Incidents& incidents) const {
     const Material& material = geometry_.scene().materials[point.material];
-    if (const auto wall = wallOf(material, glm::dvec3(point.albedo), seenFromBehind)) {
+    if (const auto wall = wallOf(material, point, seenFromBehind)) {
         return light_.entering(point, *wall, random) / walkPi;
     }
     const Body& body = bodies_[point.material];
+    const double strength = body.strength * static_cast<double>(point.strengthFactor);
     const WalkMedium medium = body.model.at({point.albedo.r, point.albedo.g, point.albedo.b});
     trace::Place start = point;
     start.normal = seenFromBehind ? -point.normal : point.normal;
@@ -200,12 +201,11 @@ glm::dvec3 RandomWalk::radiance(const trace::SurfacePoint& point, bool seenFromB
     }
     glm::dvec3 sum(0);
     if (const std::optional<Exit> exit = walk(medium, point.material, start, direction, random, incidents)) {
-        sum = body.strength * toVector(medium.gain) * exit->weight *
-              light_.entering(geometry_.surfaceAt(exit->hit), random);
+        sum = strength * toVector(medium.gain) * exit->weight * light_.entering(geometry_.surfaceAt(exit->hit), random);
     }
-    if (body.strength < 1) {
+    if (strength < 1) {
         const trace::Side side = seenFromBehind ? trace::Side::Back : trace::Side::Front;
-        sum += (1 - body.strength) * glm::dvec3(point.albedo) * light_.irradiance(point, side, random);
+        sum += (1 - strength) * glm::dvec3(point.albedo) * light_.irradiance(point, side, random);
     }
     return sum / walkPi;
 }

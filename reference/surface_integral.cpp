@@ -35,6 +35,7 @@ struct SurfaceIntegral::Probe {
     glm::dvec3 position;
     std::array<glm::dvec3, 3> axes; ///< the normal and two perpendicular to it
     std::optional<Wall> wall;
+    double millimetres; ///< of the profile, per scene unit: fewer where the point's scale makes the profile wider
 
     /// How many lines along each axis a sample has, a channel: one along the normal, and one for both others and all
     /// channels together.
@@ -74,7 +75,7 @@ glm::dvec3 SurfaceIntegral::entering(const Probe& probe, const trace::SurfacePoi
 
 glm::dvec3 SurfaceIntegral::contribution(const Probe& probe, const trace::Hit& hit, trace::Random& random) const {
     const trace::Place place = geometry_.placeOf(hit);
-    const glm::dvec3 offset = (glm::dvec3(place.position) - probe.position) * millimetres_;
+    const glm::dvec3 offset = (glm::dvec3(place.position) - probe.position) * probe.millimetres;
     const double distance = glm::length(offset);
     const RadiusSampler& radii = *probe.receiver.radii;
     if (distance >= radii.reach()) {
@@ -111,9 +112,9 @@ glm::dvec3 SurfaceIntegral::alongLine(const Probe& probe, int axis, int channel,
     glm::dvec3 sum(0);
     for (const double direction : {-1.0, 1.0}) {
         trace::Ray ray;
-        ray.origin = glm::vec3(probe.position + (radius * aside + lift * along) / millimetres_);
+        ray.origin = glm::vec3(probe.position + (radius * aside + lift * along) / probe.millimetres);
         ray.direction = glm::vec3(direction * along);
-        ray.tFar = static_cast<float>((half - direction * lift) / millimetres_);
+        ray.tFar = static_cast<float>((half - direction * lift) / probe.millimetres);
         while (const std::optional<trace::Hit> hit = geometry_.closest(ray, probe.receiver.surfaces)) {
             sum += contribution(probe, *hit, random);
             ray.tNear = std::nextafter(hit->distance, std::numeric_limits<float>::infinity());
@@ -127,7 +128,11 @@ glm::dvec3 SurfaceIntegral::integrate(const trace::SurfacePoint& point, const st
     const Receiver& receiver = receivers_[point.material];
     const RadiusSampler& radii = *receiver.radii;
     const trace::Frame frame{glm::dvec3(point.normal)};
-    const Probe probe{receiver, glm::dvec3(point.position), {frame.normal, frame.tangent, frame.bitangent}, wall};
+    const Probe probe{receiver,
+                      glm::dvec3(point.position),
+                      {frame.normal, frame.tangent, frame.bitangent},
+                      wall,
+                      millimetres_ / static_cast<double>(point.scale)};
     glm::dvec3 sum(0);
     for (const int channel : radii.channels()) {
         sum += alongLine(probe, 0, channel, random);
@@ -152,14 +157,15 @@ glm::dvec3 SurfaceIntegral::radiance(const trace::SurfacePoint& point, bool seen
                                      Incidents& /*incidents*/) const {
     const Receiver& receiver = receivers_[point.material];
     const glm::dvec3 albedo(point.albedo);
-    const std::optional<Wall> wall = wallOf(geometry_.scene().materials[point.material], albedo, seenFromBehind);
+    const std::optional<Wall> wall = wallOf(geometry_.scene().materials[point.material], point, seenFromBehind);
     const glm::dvec3 leaving = wall ? glm::dvec3(1) : receiver.usesEntryAlbedo ? glm::sqrt(albedo) : albedo;
-    glm::dvec3 sum = receiver.strength * leaving * integrate(point, wall, random);
-    if (receiver.strength < 1) {
+    const double strength = receiver.strength * static_cast<double>(point.strengthFactor);
+    glm::dvec3 sum = strength * leaving * integrate(point, wall, random);
+    if (strength < 1) {
         const trace::Side side = seenFromBehind ? trace::Side::Back : trace::Side::Front;
         const glm::dvec3 here =
             wall ? light_.entering(point, *wall, random) : albedo * light_.irradiance(point, side, random);
-        sum += (1 - receiver.strength) * here;
+        sum += (1 - strength) * here;
     }
     return sum / std::numbers::pi;
 }

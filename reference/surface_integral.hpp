@@ -3,7 +3,8 @@
 //     radiance(x) = albedo / π · ∫ R(|x − y|) E(y) dA(y)
 //
 // y runs over every surface that exchanges light with x's material, whether the camera sees it or not; R is the
-// receiver's profile over the straight distance, E the irradiance with traced shadows.
+// receiver's profile over the straight distance, with its lengths times the surface's scale at x, E the irradiance with
+// traced shadows.
 #pragma once
 
 #include "nacre/material.hpp"

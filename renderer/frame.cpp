@@ -220,6 +220,8 @@ Compose::Settings Frame::Implementation::look() const {
             .scatteredHasAlbedo = subsurface.scatteredHasAlbedo(),
             .transmit = settings.transmit,
             .hasThickness = scene.hasThickness(),
+            .hasScale = scene.hasScale(),
+            .hasTransmissionColors = scene.hasTextures(&scene::Surface::transmissionColorTexture),
             .hasBlended = scene.hasBlended(),
             .exposure = exposure,
             .samples = settings.samples,
@@ -268,7 +270,8 @@ void Frame::Implementation::recordEffectOnce(const vk::raii::CommandBuffer& comm
                                              const View& view) {
     subsurface.record(commandBuffer,
                       {view, placement.placed().lights, picture->gbuffer, picture->lighting.irradiance(),
-                       shadowMaps.image(), picture->subsurface, timers[frame]},
+                       shadowMaps.image(), picture->subsurface, timers[frame], scene.hasScale(), scene.hasStrength(),
+                       scene.hasTextures(&scene::Surface::transmissionTexture)},
                       settings);
 }
 

@@ -13,10 +13,11 @@ constexpr std::uint32_t maxSamples = 4;
 std::array<vk::ImageUsageFlags, GBuffer::AttachmentCount> gbufferUsage() {
     std::array<vk::ImageUsageFlags, GBuffer::AttachmentCount> result{};
     result[GBuffer::Depth] = effectUsage(NACRE_IMAGE_DEPTH);
-    result[GBuffer::VertexNormal] = effectUsage(NACRE_IMAGE_NORMAL);
-    result[GBuffer::Albedo] = effectUsage(NACRE_IMAGE_ALBEDO);
+    result[GBuffer::VertexNormal] = effectUsage(NACRE_IMAGE_NORMAL) | effectUsage(NACRE_IMAGE_SCALE);
+    result[GBuffer::Albedo] = effectUsage(NACRE_IMAGE_ALBEDO) | effectUsage(NACRE_IMAGE_STRENGTH);
+    result[GBuffer::Emission] = effectUsage(NACRE_IMAGE_STRENGTH);
     result[GBuffer::MaterialId] = effectUsage(NACRE_IMAGE_MATERIAL_ID);
-    result[GBuffer::Thickness] = effectUsage(NACRE_IMAGE_THICKNESS);
+    result[GBuffer::Transmission] = effectUsage(NACRE_IMAGE_THICKNESS);
     return result;
 }
 

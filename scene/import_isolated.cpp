@@ -105,11 +105,12 @@ template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, Surface>
 void exchange(A& archive, T& s) {
     archive(s.name), archive(s.baseColor), archive(s.metallic), archive(s.roughness), archive(s.specular);
-    archive(s.normalScale), archive(s.emission), archive(s.baseColorTexture), archive(s.normalTexture);
-    archive(s.metallicRoughnessTexture), archive(s.thicknessTexture), archive(s.emissionTexture);
-    archive(s.baseColorUv), archive(s.normalUv), archive(s.metallicRoughnessUv), archive(s.thicknessUv);
-    archive(s.emissionUv), archive(s.alphaMode);
-    archive(s.alphaCutoff), archive(s.doubleSided), archive(s.thickness), archive(s.material);
+    archive(s.normalScale), archive(s.emission);
+    for (const TextureSlot& slot : textureSlots) {
+        archive(s.*slot.texture), archive(s.*slot.coordinates);
+    }
+    archive(s.alphaMode), archive(s.alphaCutoff), archive(s.doubleSided), archive(s.thickness), archive(s.scale);
+    archive(s.transmissionSetsStrength), archive(s.material);
 }
 template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, Instance>

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -89,21 +90,50 @@ struct Surface {
     std::uint32_t metallicRoughnessTexture = none; ///< G roughness, B metallic
     std::uint32_t thicknessTexture = none;         ///< G, multiplies `thickness`
     std::uint32_t emissionTexture = none;          ///< RGB, multiplies `emission`
+    std::uint32_t scaleTexture = none;             ///< R, linear, multiplies `scale`
+    std::uint32_t transmissionTexture = none;      ///< A, multiplies the share of the light that comes through
+    /// RGB, the colour of the light that comes through: multiplies the material's diffuseTransmissionColor, or stands
+    /// in for the albedo where there is none. Of thin walls and bodies alike.
+    std::uint32_t transmissionColorTexture = none;
     TextureCoordinates baseColorUv;
     TextureCoordinates normalUv;
     TextureCoordinates metallicRoughnessUv;
     TextureCoordinates thicknessUv;
     TextureCoordinates emissionUv;
+    TextureCoordinates scaleUv;
+    TextureCoordinates transmissionUv;
+    TextureCoordinates transmissionColorUv;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f; ///< [≥ 0] of AlphaMode::Mask
     bool doubleSided = false;
     /// [≥ 0] mm; bounds the shadow-map thickness, or stands in for it. Negative: none authored.
     float thickness = -1;
+    /// Multiplies the lengths of the material's profile; with its texture [1e-3, 1e3] counts, values beyond as those.
+    float scale = 1;
+    /// The transmission texture multiplies the material's strength, too: what does not enter leaves unscattered.
+    bool transmissionSetsStrength = false;
     /// Index into Scene::materials; `none` = no subsurface scattering.
     std::uint32_t material = none;
     /// Which of a scene file's `models` brought it; 0 where the scene is of one model.
     std::uint32_t model = 0;
 };
+
+/// A texture of a surface and where it lies.
+struct TextureSlot {
+    std::uint32_t Surface::*texture;
+    TextureCoordinates Surface::*coordinates;
+};
+
+/// All that a surface has.
+inline constexpr std::array textureSlots{
+    TextureSlot{&Surface::baseColorTexture, &Surface::baseColorUv},
+    TextureSlot{&Surface::normalTexture, &Surface::normalUv},
+    TextureSlot{&Surface::metallicRoughnessTexture, &Surface::metallicRoughnessUv},
+    TextureSlot{&Surface::thicknessTexture, &Surface::thicknessUv},
+    TextureSlot{&Surface::emissionTexture, &Surface::emissionUv},
+    TextureSlot{&Surface::scaleTexture, &Surface::scaleUv},
+    TextureSlot{&Surface::transmissionTexture, &Surface::transmissionUv},
+    TextureSlot{&Surface::transmissionColorTexture, &Surface::transmissionColorUv}};
 
 struct Instance {
     std::string name;

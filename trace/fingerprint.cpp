@@ -7,6 +7,12 @@
 namespace nacre::trace {
 namespace {
 
+/// Textures that few scenes have and that references look at.
+constexpr std::array rareTextures{
+    scene::TextureSlot{&scene::Surface::scaleTexture, &scene::Surface::scaleUv},
+    scene::TextureSlot{&scene::Surface::transmissionTexture, &scene::Surface::transmissionUv},
+    scene::TextureSlot{&scene::Surface::transmissionColorTexture, &scene::Surface::transmissionColorUv}};
+
 void addSurface(Fingerprint& print, const scene::Surface& surface) {
     print.addValue(surface.baseColor);
     print.addValue(surface.metallic);
@@ -31,6 +37,18 @@ void addSurface(Fingerprint& print, const scene::Surface& surface) {
     }
     if (surface.alphaMode == scene::AlphaMode::Blend) {
         print.addValue(surface.alphaMode);
+    }
+    if (surface.scale != 1 || surface.transmissionSetsStrength) {
+        print.addValue(surface.scale);
+        print.addValue(surface.transmissionSetsStrength);
+    }
+    for (const scene::TextureSlot& slot : rareTextures) {
+        if (surface.*slot.texture != scene::none) {
+            print.addValue(&slot - rareTextures.data());
+            print.addValue(surface.*slot.texture);
+            print.addValue((surface.*slot.coordinates).transform);
+            print.addValue((surface.*slot.coordinates).second);
+        }
     }
 }
 

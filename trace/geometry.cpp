@@ -28,6 +28,10 @@ struct ReleaseGeometry {
 
 namespace {
 
+/// [1] Bounds of SurfacePoint::scale, as the effect has them (NacreScatterInfo::scale).
+constexpr float leastScale = 1e-3f;
+constexpr float largestScale = 1e3f;
+
 void requireConsistent(const scene::Scene& scene) {
     for (const scene::Instance& instance : scene.instances) {
         if (instance.mesh >= scene.meshes.size()) {
@@ -43,8 +47,8 @@ void requireConsistent(const scene::Scene& scene) {
         }
     }
     for (const scene::Surface& surface : scene.surfaces) {
-        for (const std::uint32_t texture :
-             {surface.baseColorTexture, surface.normalTexture, surface.metallicRoughnessTexture}) {
+        for (const scene::TextureSlot& slot : scene::textureSlots) {
+            const std::uint32_t texture = surface.*slot.texture;
             if (texture != scene::none &&
                 (texture >= scene.textures.size() ||
                  scene.textures[texture].pixels.size() !=
@@ -347,6 +351,18 @@ SurfacePoint Geometry::surfaceAt(const Hit& hit) const {
         detail.y *= surface.normalScale;
         point.shadingNormal =
             glm::normalize(tangent * detail.x + bitangent * detail.y + point.vertexNormal * std::max(detail.z, 1e-3f));
+    }
+    point.scale = surface.scale;
+    if (surface.scaleTexture != scene::none) {
+        point.scale *= texel(surface.scaleTexture, surface.scaleUv).r;
+    }
+    point.scale = std::clamp(point.scale, leastScale, largestScale);
+    if (surface.transmissionTexture != scene::none) {
+        point.shareFactor = texel(surface.transmissionTexture, surface.transmissionUv).a;
+        point.strengthFactor = surface.transmissionSetsStrength ? point.shareFactor : 1;
+    }
+    if (surface.transmissionColorTexture != scene::none) {
+        point.transmissionColor = glm::vec3(texel(surface.transmissionColorTexture, surface.transmissionColorUv));
     }
     point.material = surface.material;
     point.doubleSided = surface.doubleSided;

@@ -39,8 +39,12 @@ struct SurfacePoint : Place {
     /// From here shadow rays start. The position, moved to the curved surface that the vertex normals tell of, so that
     /// facets do not shade their neighbours (Hanika 2021, "Hacking the shadow terminator", Ray Tracing Gems II).
     glm::vec3 shadowOrigin{0};
-    glm::vec3 albedo{0};                  ///< diffuse: base colour · (1 − metallic)
-    std::uint32_t material = scene::none; ///< index into Scene::materials
+    glm::vec3 albedo{0};                        ///< diffuse: base colour · (1 − metallic)
+    float scale = 1;                            ///< of the material's lengths: Surface::scale with its texture
+    float shareFactor = 1;                      ///< on the share of the light that comes through
+    float strengthFactor = 1;                   ///< on the material's strength
+    std::optional<glm::vec3> transmissionColor; ///< of what comes through, where a texture has it
+    std::uint32_t material = scene::none;       ///< index into Scene::materials
     bool doubleSided = false;
 };
 

@@ -1,5 +1,7 @@
 #include "trace/texture_lookup.hpp"
 
+#include "scene/texture.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,12 +11,8 @@ namespace {
 
 std::array<float, 256> makeDecodeTable(bool srgb) {
     std::array<float, 256> table{};
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        const double value = static_cast<double>(i) / 255;
-        // IEC 61966-2-1.
-        const double linear = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-        table[i] = static_cast<float>(srgb ? linear : value);
-    }
+    std::ranges::transform(scene::linearValues(srgb), table.begin(),
+                           [](double value) { return static_cast<float>(value); });
     return table;
 }
 

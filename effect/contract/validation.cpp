@@ -32,9 +32,9 @@ constexpr VkFormat normalFormats[] = {VK_FORMAT_R16G16B16A16_SFLOAT,
                                       VK_FORMAT_R8G8_SNORM,
                                       VK_FORMAT_R8G8_UNORM,
                                       VK_FORMAT_R32G32_SFLOAT};
-constexpr VkFormat factorFormats[] = {VK_FORMAT_R8_UNORM, VK_FORMAT_R16_UNORM, VK_FORMAT_R16_SFLOAT,
-                                      VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
-constexpr VkFormat thicknessFormats[] = {VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT};
+constexpr VkFormat factorFormats[] = {VK_FORMAT_R8_UNORM,   VK_FORMAT_R16_UNORM,      VK_FORMAT_R16_SFLOAT,
+                                      VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16B16A16_SFLOAT};
+constexpr VkFormat thicknessFormats[] = {VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr VkFormat albedoFormats[] = {VK_FORMAT_R8G8B8A8_UNORM,           VK_FORMAT_R8G8B8A8_SRGB,
                                       VK_FORMAT_B8G8R8A8_UNORM,           VK_FORMAT_B8G8R8A8_SRGB,
                                       VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_R16G16B16A16_SFLOAT,

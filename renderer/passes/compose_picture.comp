@@ -26,14 +26,17 @@ layout(set = 0, binding = 9) uniform sampler2D scatteredImage; // written where 
 layout(set = 0, binding = 10) uniform sampler2D transmittedImage;
 layout(set = 0, binding = 11) uniform sampler2D environmentImage;
 layout(set = 0, binding = 12) uniform sampler2D occlusionImage;
-layout(set = 0, binding = 13) uniform sampler2D thicknessImage;
+layout(set = 0, binding = 13) uniform sampler2D transmissionImage; // r: thickness, gba: colour, as GBuffer::Transmission
 layout(set = 0, binding = 14) uniform sampler2D blendedImage;
-layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D outRadiance;
+layout(set = 0, binding = 15) uniform sampler2D vertexNormalImage; // w: scale of the material's lengths
+layout(set = 0, binding = 16, rgba16f) uniform writeonly image2D outRadiance;
 layout(push_constant) uniform Push {
     uint scatter;
     uint scatteredHasAlbedo;
     uint transmit;
     uint hasThickness;
+    uint hasScale;
+    uint hasTransmissionColors;
     uint hasBlended;
 };
 
@@ -51,8 +54,8 @@ vec3 throughSlab(uint material, float millimetres) {
 /// What the surroundings' light gains by coming through: what arrives behind comes in place of what arrives in front, which
 /// is in the scattered light. So surroundings that are even change nothing. What occludes this side stands for what occludes
 /// the other.
-vec3 surroundingsThrough(ivec2 pixel, uint material, float share) {
-    float millimetres = hasThickness != 0u && material != 0u ? texelFetch(thicknessImage, pixel, 0).r : 0.0;
+vec3 surroundingsThrough(ivec2 pixel, uint material, float share, float factor) {
+    float millimetres = hasThickness != 0u && material != 0u ? texelFetch(transmissionImage, pixel, 0).r : 0.0;
     if (share <= 0.0 && millimetres <= 0.0) {
         return vec3(0.0);
     }
@@ -62,11 +65,26 @@ vec3 surroundingsThrough(ivec2 pixel, uint material, float share) {
     if (share > 0.0) { // a thin wall, which compose has taken its share from
         return share * visibility * behind;
     }
-    return throughSlab(material, millimetres) * visibility * (behind - environmentIrradiance(environment, normal));
+    if (hasScale != 0u) { // longer paths in a profile are a thinner body in it
+        millimetres /= texelFetch(vertexNormalImage, pixel, 0).w;
+    }
+    return factor * throughSlab(material, millimetres) * visibility *
+           (behind - environmentIrradiance(environment, normal));
+}
+
+/// Of what comes through. A texture multiplies the material's own colour, and stands in for the albedo where it has none.
+vec3 colorThrough(ivec2 pixel, uint material, vec3 albedo) {
+    vec4 own = transmissions[material].color;
+    vec3 texel = hasTransmissionColors != 0u ? texelFetch(transmissionImage, pixel, 0).gba : vec3(-1.0);
+    if (texel.r < 0.0) {
+        return own.w > 0.0 ? own.rgb : albedo;
+    }
+    return own.w > 0.0 ? own.rgb * texel : texel;
 }
 
 vec3 diffuseRadiance(ivec2 pixel) {
-    vec3 albedo = texelFetch(albedoImage, pixel, 0).rgb;
+    vec4 albedoAndFactor = texelFetch(albedoImage, pixel, 0);
+    vec3 albedo = albedoAndFactor.rgb;
     uint material = texelFetch(materialIdImage, pixel, 0).r;
     bool isScattered = scatter != 0u && material != 0u;
     vec3 reflected = isScattered ? texelFetch(scatteredImage, pixel, 0).rgb : texelFetch(irradianceImage, pixel, 0).rgb;
@@ -77,10 +95,10 @@ vec3 diffuseRadiance(ivec2 pixel) {
         return reflected / pi;
     }
     vec3 transmitted = texelFetch(transmittedImage, pixel, 0).rgb;
-    float share = transmissions[material].share.x;
-    transmitted += surroundingsThrough(pixel, material, share);
-    vec4 color = transmissions[material].color;
-    vec3 through = (color.w > 0.0 ? color.rgb : albedo) * transmitted;
+    float factor = albedoAndFactor.a; // on the share of the light that comes through, which is in `transmitted`
+    float share = transmissions[material].share.x * factor;
+    transmitted += surroundingsThrough(pixel, material, share, factor);
+    vec3 through = colorThrough(pixel, material, albedo) * transmitted;
     return max((1.0 - share) * reflected + through, 0.0) / pi;
 }
 

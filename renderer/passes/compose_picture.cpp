@@ -11,6 +11,8 @@ struct RadiancePush {
     std::uint32_t scatteredHasAlbedo;
     std::uint32_t transmit;
     std::uint32_t hasThickness;
+    std::uint32_t hasScale;
+    std::uint32_t hasTransmissionColors;
     std::uint32_t hasBlended;
 };
 
@@ -38,16 +40,16 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent, std::size_
                                  vk::BufferUsageFlagBits::eStorageBuffer, framesInFlight);
     const auto pixels = [&](Image& image) { return sampled(image, inputs.nearest); };
     Environment& environment = inputs.environment;
-    radiancePass_ =
-        ComputePass(gpu, "compose", compose_picture_comp_spv,
-                    {uniform(gbuffer.view()), uniform(environment.constants()), storage(transmissions_),
-                     pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
-                     pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
-                     pixels(inputs.lighting.irradiance()), pixels(inputs.lighting.specular()),
-                     pixels(inputs.subsurface.scattered), pixels(inputs.subsurface.transmitted),
-                     sampled(environment.radiance(), environment.sampler()), pixels(inputs.occlusion.visibility()),
-                     pixels(gbuffer.image(GBuffer::Thickness)), pixels(inputs.blended.image()), written(radiance_)},
-                    sizeof(RadiancePush));
+    radiancePass_ = ComputePass(
+        gpu, "compose", compose_picture_comp_spv,
+        {uniform(gbuffer.view()), uniform(environment.constants()), storage(transmissions_),
+         pixels(gbuffer.image(GBuffer::ShadingNormal)), pixels(gbuffer.image(GBuffer::Albedo)),
+         pixels(gbuffer.image(GBuffer::Emission)), pixels(gbuffer.image(GBuffer::MaterialId)),
+         pixels(inputs.lighting.irradiance()), pixels(inputs.lighting.specular()), pixels(inputs.subsurface.scattered),
+         pixels(inputs.subsurface.transmitted), sampled(environment.radiance(), environment.sampler()),
+         pixels(inputs.occlusion.visibility()), pixels(gbuffer.image(GBuffer::Transmission)),
+         pixels(inputs.blended.image()), pixels(gbuffer.image(GBuffer::VertexNormal)), written(radiance_)},
+        sizeof(RadiancePush));
     colorPass_ =
         ComputePass(gpu, "tone map", tone_map_comp_spv, {pixels(radiance_), written(color_)}, sizeof(ColorPush));
 }
@@ -55,9 +57,14 @@ Compose::Compose(Gpu& gpu, const Inputs& inputs, vk::Extent2D extent, std::size_
 void Compose::recordRadiance(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame,
                              const Settings& settings) {
     transmissions_.write(frame, std::as_bytes(settings.transmissions));
-    const RadiancePush push{settings.scatter ? 1u : 0u, settings.scatteredHasAlbedo ? 1u : 0u,
-                            settings.transmit ? 1u : 0u, settings.hasThickness ? 1u : 0u,
-                            settings.hasBlended ? 1u : 0u};
+    const auto flag = [](bool is) { return is ? 1u : 0u; };
+    const RadiancePush push{.scatter = flag(settings.scatter),
+                            .scatteredHasAlbedo = flag(settings.scatteredHasAlbedo),
+                            .transmit = flag(settings.transmit),
+                            .hasThickness = flag(settings.hasThickness),
+                            .hasScale = flag(settings.hasScale),
+                            .hasTransmissionColors = flag(settings.hasTransmissionColors),
+                            .hasBlended = flag(settings.hasBlended)};
     radiancePass_.record(commandBuffer, frame, radiance_.info().extent, bytesOf(push));
 }
 

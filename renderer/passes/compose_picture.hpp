@@ -29,7 +29,9 @@ public:
         bool transmit = true;
         bool hasThickness =
             false; ///< whether a subsurface body has an authored thickness, through which surroundings shine
-        bool hasBlended = false; ///< whether BlendedSurfaces was recorded
+        bool hasScale = false;              ///< whether surfaces multiply the lengths of their materials
+        bool hasTransmissionColors = false; ///< whether textures have the colour of what comes through
+        bool hasBlended = false;            ///< whether BlendedSurfaces was recorded
         float exposure = 1;
         std::uint32_t samples = 1; ///< per axis and pixel of the picture
         bool dither = false;

@@ -22,7 +22,7 @@ constexpr std::array<AttachmentInfo, GBuffer::AttachmentCount> attachmentInfos{
      {"reflection", vk::Format::eR16G16B16A16Sfloat},
      {"emission", vk::Format::eR16G16B16A16Sfloat},
      {"material id", vk::Format::eR16Uint},
-     {"authored thickness", vk::Format::eR16Sfloat}}};
+     {"transmission", vk::Format::eR16Sfloat}}};
 
 shared::ViewConstants makeConstants(const View& view, vk::Extent2D extent) {
     const glm::mat4& p = view.clipFromView;
@@ -42,13 +42,17 @@ GBuffer::GBuffer(Gpu& gpu, const GpuScene& scene, vk::Extent2D extent,
     using Kind = vk::ImageUsageFlagBits;
     std::vector<vk::Format> formats;
     for (std::size_t i = 0; i < AttachmentCount; ++i) {
+        const bool hasColors = i == Transmission && scene.hasTextures(&scene::Surface::transmissionColorTexture);
+        formats.push_back(hasColors ? vk::Format::eR16G16B16A16Sfloat : attachmentInfos[i].format);
         images_[i] =
             Image(gpu, {.name = attachmentInfos[i].name,
-                        .format = attachmentInfos[i].format,
+                        .format = formats.back(),
                         .extent = extent,
                         .usage = Kind::eColorAttachment | Kind::eSampled | Kind::eTransferSrc | effectUsage[i]});
-        formats.push_back(attachmentInfos[i].format);
     }
+    scaleView_ = images_[VertexNormal].makeChannelView(gpu, vk::ComponentSwizzle::eA);
+    strengthView_ = images_[Emission].makeChannelView(gpu, vk::ComponentSwizzle::eA);
+    shareView_ = images_[Albedo].makeChannelView(gpu, vk::ComponentSwizzle::eA);
     hardwareDepth_ = Image(gpu, {.name = "depth buffer",
                                  .format = vk::Format::eD32Sfloat,
                                  .extent = extent,

@@ -14,7 +14,40 @@ layout(location = 3) out vec4 outAlbedo;
 layout(location = 4) out vec4 outReflection;
 layout(location = 5) out vec4 outEmission;
 layout(location = 6) out uint outMaterialId;
-layout(location = 7) out float outThickness;
+layout(location = 7) out vec4 outTransmission;
+
+// [1] As NacreScatterInfo::scale.
+const float leastScale = 1e-3;
+const float largestScale = 1e3;
+
+float thicknessOf(SurfaceConstants surface) {
+    float thickness = surface.lengths.x;
+    if (thickness > 0.0 && hasTexture(thicknessSlot)) {
+        // A small positive value keeps an authored zero apart from "none".
+        thickness = max(thickness * texture(thicknessTexture, inUv[thicknessSlot]).g, 1e-3);
+    }
+    return thickness;
+}
+
+float scaleOf(SurfaceConstants surface) {
+    float scale = surface.lengths.y;
+    if (hasTexture(scaleSlot)) {
+        scale *= texture(scaleTexture, inUv[scaleSlot]).r;
+    }
+    return clamp(scale, leastScale, largestScale);
+}
+
+// Factor on the share of the light that comes through.
+float shareFactor() {
+    return hasTexture(transmissionSlot) ? texture(transmissionTexture, inUv[transmissionSlot]).a : 1.0;
+}
+
+// Of what comes through; negative: as the material has it.
+vec3 transmissionColor() {
+    return hasTexture(transmissionColorSlot)
+        ? texture(transmissionColorTexture, inUv[transmissionColorSlot]).rgb
+        : vec3(-1.0);
+}
 
 void main() {
     SurfaceConstants surface = surfaces[draw.index.x];
@@ -23,18 +56,13 @@ void main() {
         discard;
     }
     Look look = lookOf(surface, color.rgb);
-    float thickness = surface.thickness.x;
-    if (thickness > 0.0 && has(hasThicknessTexture)) {
-        // A small positive value keeps an authored zero apart from "none".
-        thickness = max(thickness * texture(thicknessTexture, inUv[thicknessSlot]).g, 1e-3);
-    }
-
+    float share = shareFactor();
     outDepth = inDepth;
     outShadingNormal = vec4(look.shadingNormal, 1.0);
-    outVertexNormal = vec4(look.vertexNormal, 1.0);
-    outAlbedo = vec4(look.albedo, 1.0);
+    outVertexNormal = vec4(look.vertexNormal, scaleOf(surface));
+    outAlbedo = vec4(look.albedo, share);
     outReflection = vec4(look.f0, look.roughness);
-    outEmission = vec4(look.emission, 1.0);
+    outEmission = vec4(look.emission, surface.lengths.z != 0.0 ? share : 1.0);
     outMaterialId = surface.material.x;
-    outThickness = thickness;
+    outTransmission = vec4(thicknessOf(surface), transmissionColor());
 }

@@ -17,12 +17,14 @@ public:
     enum Attachment : std::size_t {
         Depth,         ///< R32F, linear depth in scene units; the far plane where there is nothing
         ShadingNormal, ///< RGBA16F, world space, with the normal map; w is 1 on surfaces, 0 where there is nothing
-        VertexNormal,  ///< RGBA16F, world space, without the normal map
-        Albedo,        ///< RGBA16F, diffuse albedo: base colour · (1 − metallic)
+        VertexNormal,  ///< RGBA16F, world space, without the normal map; w: scale of the material's lengths
+        Albedo,        ///< RGBA16F, diffuse: base colour · (1 − metallic); w: factor on the share that comes through
         Reflection,    ///< RGBA16F, F0 in rgb, GGX perceptual roughness in a
-        Emission,      ///< RGBA16F
+        Emission,      ///< RGBA16F; w: factor on the material's strength
         MaterialId,    ///< R16_UINT, index into Scene::materials + 1; 0 = no subsurface scattering
-        Thickness,     ///< R16F, authored thickness in mm; 0 = none
+        /// R16F, authored thickness in mm; 0 = none. RGBA16F where surfaces have textures of the colour of what comes
+        /// through: gba is that colour, negative = as the material has it.
+        Transmission,
         AttachmentCount
     };
 
@@ -31,6 +33,10 @@ public:
             const std::array<vk::ImageUsageFlags, AttachmentCount>& effectUsage, std::uint32_t framesInFlight);
 
     Image& image(Attachment attachment) { return images_[attachment]; }
+    /// Views of one channel as red, as the effect reads factors: w of VertexNormal, of Albedo and of Emission.
+    vk::ImageView scaleView() const { return *scaleView_; }
+    vk::ImageView shareView() const { return *shareView_; }
+    vk::ImageView strengthView() const { return *strengthView_; }
     /// The camera's constants, for every pass that goes from pixels to the world.
     const FrameBuffer& view() const { return view_; }
     void record(const vk::raii::CommandBuffer& commandBuffer, std::uint32_t frame, const GpuScene& scene,
@@ -42,6 +48,9 @@ public:
 
 private:
     std::array<Image, AttachmentCount> images_;
+    vk::raii::ImageView scaleView_ = nullptr;
+    vk::raii::ImageView shareView_ = nullptr;
+    vk::raii::ImageView strengthView_ = nullptr;
     Image hardwareDepth_;
     FrameBuffer view_;
     DescriptorSets sets_;

@@ -19,19 +19,21 @@ struct VertexAttributes {
     glm::vec2 secondUv;
 };
 
-/// The textures of a surface in the order of shared::baseColorSlot and so on, and the flags that say which it has.
-struct TextureSlot {
-    std::uint32_t scene::Surface::*texture;
-    scene::TextureCoordinates scene::Surface::*coordinates;
-    std::uint32_t flag;
-};
-constexpr std::array<TextureSlot, shared::textureSlotCount> textureSlots{
-    {{&scene::Surface::baseColorTexture, &scene::Surface::baseColorUv, shared::hasBaseColorTexture},
-     {&scene::Surface::normalTexture, &scene::Surface::normalUv, shared::hasNormalTexture},
-     {&scene::Surface::metallicRoughnessTexture, &scene::Surface::metallicRoughnessUv,
-      shared::hasMetallicRoughnessTexture},
-     {&scene::Surface::thicknessTexture, &scene::Surface::thicknessUv, shared::hasThicknessTexture},
-     {&scene::Surface::emissionTexture, &scene::Surface::emissionUv, shared::hasEmissionTexture}}};
+using scene::TextureSlot;
+using scene::textureSlots;
+
+constexpr bool isSlot(std::uint32_t slot, std::uint32_t scene::Surface::*texture) {
+    return textureSlots[slot].texture == texture;
+}
+static_assert(textureSlots.size() == shared::textureSlotCount &&
+              isSlot(shared::baseColorSlot, &scene::Surface::baseColorTexture) &&
+              isSlot(shared::normalSlot, &scene::Surface::normalTexture) &&
+              isSlot(shared::metallicRoughnessSlot, &scene::Surface::metallicRoughnessTexture) &&
+              isSlot(shared::thicknessSlot, &scene::Surface::thicknessTexture) &&
+              isSlot(shared::emissionSlot, &scene::Surface::emissionTexture) &&
+              isSlot(shared::scaleSlot, &scene::Surface::scaleTexture) &&
+              isSlot(shared::transmissionSlot, &scene::Surface::transmissionTexture) &&
+              isSlot(shared::transmissionColorSlot, &scene::Surface::transmissionColorTexture));
 
 /// An authored thickness of 0 mm is still authored; the effect reads 0 as "none".
 constexpr float smallestThickness = 1e-3f;
@@ -82,8 +84,8 @@ bool masksAlike(const scene::Surface& a, const scene::Surface& b) {
 
 std::uint32_t makeFlags(const scene::Surface& surface) {
     std::uint32_t flags = surface.doubleSided ? shared::isDoubleSided : 0u;
-    for (const TextureSlot& slot : textureSlots) {
-        flags |= surface.*slot.texture == scene::none ? 0u : slot.flag;
+    for (std::size_t slot = 0; slot < textureSlots.size(); ++slot) {
+        flags |= surface.*textureSlots[slot].texture == scene::none ? 0u : 1u << slot;
     }
     return flags;
 }
@@ -95,7 +97,7 @@ shared::SurfaceConstants makeSurfaceConstants(const scene::Surface& surface) {
     shared::SurfaceConstants result{.baseColor = surface.baseColor,
                                     .emission = {surface.emission, surface.normalScale},
                                     .parameters = {surface.metallic, surface.roughness, surface.specular, cutoff},
-                                    .thickness = {thickness, 0, 0, 0},
+                                    .lengths = {thickness, surface.scale, surface.transmissionSetsStrength ? 1 : 0, 0},
                                     .uvTransformU = {},
                                     .uvTransformV = {},
                                     .material = {surface.material == scene::none ? 0u : surface.material + 1, 0, 0, 0}};
@@ -276,6 +278,24 @@ bool GpuScene::hasThickness() const {
     return std::ranges::any_of(surfaces_, [](const scene::Surface& surface) {
         return surface.material != scene::none && surface.thickness >= 0;
     });
+}
+
+bool GpuScene::hasScale() const {
+    return std::ranges::any_of(surfaces_, [](const scene::Surface& surface) {
+        return surface.material != scene::none && (surface.scale != 1 || surface.scaleTexture != scene::none);
+    });
+}
+
+bool GpuScene::hasStrength() const {
+    return std::ranges::any_of(surfaces_, [](const scene::Surface& surface) {
+        return surface.material != scene::none && surface.transmissionSetsStrength &&
+               surface.transmissionTexture != scene::none;
+    });
+}
+
+bool GpuScene::hasTextures(std::uint32_t scene::Surface::*texture) const {
+    return std::ranges::any_of(surfaces_,
+                               [&](const scene::Surface& surface) { return surface.*texture != scene::none; });
 }
 
 void GpuScene::recordDraws(const vk::raii::CommandBuffer& commandBuffer, vk::PipelineLayout layout,

@@ -16,7 +16,7 @@ struct Draw {
     std::uint32_t indexCount = 0;
     std::int32_t vertexOffset = 0;
     std::uint32_t surface = 0;
-    std::uint32_t flags = 0; ///< shared::hasBaseColorTexture and the like
+    std::uint32_t flags = 0; ///< DrawConstants::index.w
     glm::mat4 worldFromObject{1};
     bool mirrored = false; ///< the transform turns triangles inside out
     bool doubleSided = false;
@@ -37,10 +37,15 @@ public:
     std::uint64_t casterVersion() const { return casterVersion_; }
     /// Whether a surface with a subsurface material has an authored thickness.
     bool hasThickness() const;
+    /// Whether one multiplies the lengths of its material.
+    bool hasScale() const;
+    /// Whether one's transmission texture multiplies the strength of its material.
+    bool hasStrength() const;
+    /// Whether a surface has a texture of this kind.
+    bool hasTextures(std::uint32_t scene::Surface::*texture) const;
     /// shared::SurfaceConstants, one a surface.
     const FrameBuffer& surfaces() const { return constants_; }
-    /// Set 1 of every pipeline that draws the scene: base colour, normal, metallic-roughness, thickness,
-    /// emission textures.
+    /// Set 1 of every pipeline that draws the scene: the textures in the order of scene::textureSlots.
     const vk::raii::DescriptorSetLayout& textureSetLayout() const { return textureSetLayout_; }
 
     static std::vector<vk::VertexInputBindingDescription> vertexBindings();

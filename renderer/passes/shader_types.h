@@ -18,21 +18,19 @@ NACRE_CONSTANT groupSize = 16;
 
 NACRE_CONSTANT noShadow = 0xffffffffu;
 
-/// The textures of a surface, as they are bound and as SurfaceConstants counts them.
+/// The textures of a surface, in the order of scene::textureSlots.
 NACRE_CONSTANT baseColorSlot = 0;
 NACRE_CONSTANT normalSlot = 1;
 NACRE_CONSTANT metallicRoughnessSlot = 2;
 NACRE_CONSTANT thicknessSlot = 3;
 NACRE_CONSTANT emissionSlot = 4;
-NACRE_CONSTANT textureSlotCount = 5;
+NACRE_CONSTANT scaleSlot = 5;
+NACRE_CONSTANT transmissionSlot = 6;
+NACRE_CONSTANT transmissionColorSlot = 7;
+NACRE_CONSTANT textureSlotCount = 8;
 
-/// DrawConstants::index.w
-NACRE_CONSTANT hasBaseColorTexture = 1;
-NACRE_CONSTANT hasNormalTexture = 2;
-NACRE_CONSTANT hasMetallicRoughnessTexture = 4;
-NACRE_CONSTANT hasThicknessTexture = 8;
-NACRE_CONSTANT hasEmissionTexture = 16;
-NACRE_CONSTANT isDoubleSided = 32;
+/// DrawConstants::index.w: 1 << slot where there is a texture, and this.
+NACRE_CONSTANT isDoubleSided = 0x80000000u;
 
 /// LightConstants::kind.x, as NacreLightKind
 NACRE_CONSTANT lightDirectional = 0;
@@ -56,7 +54,8 @@ struct SurfaceConstants {
     vec4 baseColor;
     vec4 emission;     ///< w: normalScale
     vec4 parameters;   ///< metallic, roughness, specular, alpha cutoff
-    vec4 thickness;    ///< x: authored, mm, 0 = none
+    vec4 lengths;      ///< x: authored thickness, mm, 0 = none; y: scale of the material's; z: 1 where the
+                       ///< transmission texture multiplies the material's strength, too
     vec4 uvTransformU[textureSlotCount]; ///< dot with vec3(uv, 1) is the transformed u; w: 1 = of the second uv
     vec4 uvTransformV[textureSlotCount]; ///< the same for v
     uvec4 material;    ///< x: material id
@@ -163,7 +162,7 @@ static_assert(sizeof(AccumulateConstants) == 64);
 static_assert(sizeof(Mark) == 32);
 static_assert(sizeof(ShowConstants) == 64);
 static_assert(sizeof(ViewConstants) == 176);
-static_assert(sizeof(SurfaceConstants) == 240);
+static_assert(sizeof(SurfaceConstants) == 80 + 32 * textureSlotCount);
 static_assert(sizeof(DrawConstants) == 80);
 static_assert(sizeof(LightConstants) == 144);
 static_assert(sizeof(ShadowLayer) == 96);

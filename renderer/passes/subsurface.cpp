@@ -33,6 +33,13 @@ NacreImage asInput(const Image& image) {
     return effectImage(image, usage::computeRead);
 }
 
+/// One channel of it, which `view` shows as red.
+NacreImage asFactor(const Image& image, vk::ImageView view) {
+    NacreImage result = asInput(image);
+    result.view = view;
+    return result;
+}
+
 NacreImage asOutput(const Image& image) {
     return effectImage(image, usage::computeWrite);
 }
@@ -180,7 +187,8 @@ void Subsurface::record(const vk::raii::CommandBuffer& commandBuffer, const Inpu
                                {gbuffer.image(GBuffer::MaterialId), usage::computeRead},
                                {gbuffer.image(GBuffer::VertexNormal), usage::computeRead},
                                {gbuffer.image(GBuffer::Albedo), usage::computeRead},
-                               {gbuffer.image(GBuffer::Thickness), usage::computeRead},
+                               {gbuffer.image(GBuffer::Emission), usage::computeRead},
+                               {gbuffer.image(GBuffer::Transmission), usage::computeRead},
                                {inputs.shadowMaps, usage::computeRead}};
     inputs.outputs.forEachImage([&](Image& image) { uses.push_back({image, usage::computeWrite}); });
     nacre::renderer::prepare(commandBuffer, uses);
@@ -209,6 +217,12 @@ void Subsurface::scatter(const vk::raii::CommandBuffer& commandBuffer, const Inp
     info.depth = asInput(gbuffer.image(GBuffer::Depth));
     info.materialId = asInput(gbuffer.image(GBuffer::MaterialId));
     info.normal = asInput(gbuffer.image(GBuffer::VertexNormal));
+    if (inputs.hasScale) {
+        info.scale = asFactor(gbuffer.image(GBuffer::VertexNormal), gbuffer.scaleView());
+    }
+    if (inputs.hasStrength) {
+        info.strength = asFactor(gbuffer.image(GBuffer::Emission), gbuffer.strengthView());
+    }
     if (scatteredHasAlbedo()) {
         info.albedo = asInput(gbuffer.image(GBuffer::Albedo));
     }
@@ -228,7 +242,13 @@ void Subsurface::transmit(const vk::raii::CommandBuffer& commandBuffer, const In
     info.depth = asInput(gbuffer.image(GBuffer::Depth));
     info.materialId = asInput(gbuffer.image(GBuffer::MaterialId));
     info.normal = asInput(gbuffer.image(GBuffer::VertexNormal));
-    info.thickness = asInput(gbuffer.image(GBuffer::Thickness));
+    info.thickness = asInput(gbuffer.image(GBuffer::Transmission));
+    if (inputs.hasScale) {
+        info.scale = asFactor(gbuffer.image(GBuffer::VertexNormal), gbuffer.scaleView());
+    }
+    if (inputs.hasShares) {
+        info.strength = asFactor(gbuffer.image(GBuffer::Albedo), gbuffer.shareView());
+    }
     info.lightCount = static_cast<std::uint32_t>(inputs.lights.size());
     info.lights = inputs.lights.data();
     info.shadowMapCount = 1;

@@ -62,6 +62,9 @@ public:
         Image& shadowMaps;
         SubsurfaceImages& outputs;
         FrameTimer& timer;
+        bool hasScale = false;    ///< whether surfaces multiply the lengths of their materials
+        bool hasStrength = false; ///< whether textures multiply the strength of materials
+        bool hasShares = false;   ///< whether textures multiply the share of the light that comes through
     };
 
     /// Before anything of frame `frame` is recorded; its previous use must have finished.

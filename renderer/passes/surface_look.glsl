@@ -17,7 +17,7 @@ struct Look {
 vec3 mappedNormal(SurfaceConstants surface, vec3 normal) {
     vec3 tangent = inTangent.xyz - normal * dot(normal, inTangent.xyz);
     float tangentLength = length(tangent);
-    if (!has(hasNormalTexture) || tangentLength < 1e-12) {
+    if (!hasTexture(normalSlot) || tangentLength < 1e-12) {
         return normal;
     }
     tangent /= tangentLength;
@@ -28,11 +28,11 @@ vec3 mappedNormal(SurfaceConstants surface, vec3 normal) {
 }
 
 Look lookOf(SurfaceConstants surface, vec3 color) {
-    bool flip = has(isDoubleSided) && !gl_FrontFacing;
+    bool flip = (draw.index.w & isDoubleSided) != 0u && !gl_FrontFacing;
     float metallic = surface.parameters.x;
     Look look;
     look.roughness = surface.parameters.y;
-    if (has(hasMetallicRoughnessTexture)) {
+    if (hasTexture(metallicRoughnessSlot)) {
         vec4 texel = texture(metallicRoughnessTexture, inUv[metallicRoughnessSlot]);
         metallic *= texel.b;
         look.roughness *= texel.g;
@@ -42,7 +42,7 @@ Look lookOf(SurfaceConstants surface, vec3 color) {
     look.albedo = color * (1.0 - metallic);
     look.f0 = mix(vec3(0.08 * surface.parameters.z), color, metallic);
     look.emission = surface.emission.rgb;
-    if (has(hasEmissionTexture)) {
+    if (hasTexture(emissionSlot)) {
         look.emission *= texture(emissionTexture, inUv[emissionSlot]).rgb;
     }
     return look;

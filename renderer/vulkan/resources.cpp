@@ -172,6 +172,15 @@ vk::raii::ImageView Image::makeView(const Gpu& gpu, vk::ImageViewType type, std:
                                   .layerCount = layerCount}}};
 }
 
+vk::raii::ImageView Image::makeChannelView(const Gpu& gpu, vk::ComponentSwizzle channel) const {
+    return {gpu.device,
+            {.image = *image_,
+             .viewType = info_.viewType,
+             .format = info_.format,
+             .components = {.r = channel},
+             .subresourceRange = range()}};
+}
+
 void Image::forget() {
     lastUsage_ = {vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eMemoryWrite,
                   vk::ImageLayout::eUndefined};

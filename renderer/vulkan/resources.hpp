@@ -105,6 +105,8 @@ public:
     /// A view of one mip level and some layers.
     vk::raii::ImageView makeView(const Gpu& gpu, vk::ImageViewType type, std::uint32_t mipLevel,
                                  std::uint32_t firstLayer, std::uint32_t layerCount) const;
+    /// A view of the whole image in which one channel is red.
+    vk::raii::ImageView makeChannelView(const Gpu& gpu, vk::ComponentSwizzle channel) const;
     const Usage& lastUsage() const { return lastUsage_; }
 
     /// Makes the image ready for `next`; the barrier needed is appended to `barriers`. Order of calls is order of use.

@@ -2,6 +2,7 @@
 
 #include "nacre/presets.hpp"
 #include "scene/files/scene_file_light.hpp"
+#include "scene/files/scene_file_material.hpp"
 #include "scene/import.hpp"
 #include "scene/surface_material.hpp"
 
@@ -102,10 +103,16 @@ private:
         }
         Json json = parseSceneJson(source_.string(), readFile(source_));
         json.erase("$schema"); // which is relative to the file
+        Json noSurfaces = Json::object();
         for (Json& model : json["models"]) {
             rebase(model, "model", "gallery");
-            if (model.contains("surface")) {
-                rebase(model["surface"], "thicknessTexture", "");
+            for (const LookTexture& texture : lookTextures) {
+                if (model.contains("surface")) {
+                    rebase(model["surface"], texture.key, "");
+                }
+                for (Json& surface : model.contains("surfaces") ? model["surfaces"] : noSurfaces) {
+                    rebase(surface, texture.key, "");
+                }
             }
         }
         return json;

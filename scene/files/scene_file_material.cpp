@@ -64,19 +64,18 @@ void assignByName(const SceneFileObject& object, const nlohmann::json& byName, S
                 });
 }
 
-/// The baked thickness of the surfaces, which `thickness` is the white of.
-void readThicknessTexture(SceneFileObject& look, Scene& model, const Surfaces& surfaces) {
-    const std::string texture = look.text("thicknessTexture");
-    if (!look.has("thicknessTexture")) {
+/// Gives the surfaces the picture that the member names, where the model's own lies or would.
+void readLookTexture(SceneFileObject& look, const LookTexture& kind, Scene& model, const Surfaces& surfaces) {
+    const std::string file = look.text(kind.key);
+    if (!look.has(kind.key)) {
         return;
     }
-    look.require("thickness");
-    const std::filesystem::path target = look.namedFile("thicknessTexture", texture, "an existing picture of 8 bits");
+    const std::filesystem::path target = look.namedFile(kind.key, file, "an existing picture of 8 bits");
     model.inputs.push_back(target.string());
     for (Surface* surface : surfaces) {
-        surface->thicknessTexture = static_cast<std::uint32_t>(model.textures.size());
+        surface->*kind.texture = static_cast<std::uint32_t>(model.textures.size());
     }
-    model.textures.push_back(readTexture(target, false));
+    model.textures.push_back(readTexture(target, kind.srgb));
 }
 
 void readLook(SceneFileObject look, Scene& model, const Surfaces& surfaces) {
@@ -91,13 +90,20 @@ void readLook(SceneFileObject look, Scene& model, const Surfaces& surfaces) {
         }
     }
     const float thickness = look.real("thickness", -1, {0, 1e6});
+    const float scale = look.real("scale", 1, {1e-3, 1e3});
     const bool doubleSided = look.boolean("doubleSided", false);
     for (Surface* surface : surfaces) {
         surface->baseColor = colored ? glm::vec4(baseColor, surface->baseColor.w) : surface->baseColor;
         surface->thickness = thickness >= 0 ? thickness : surface->thickness;
+        surface->scale = look.has("scale") ? scale : surface->scale;
         surface->doubleSided = look.has("doubleSided") ? doubleSided : surface->doubleSided;
     }
-    readThicknessTexture(look, model, surfaces);
+    if (look.has("thicknessTexture")) { // which is a share of it
+        look.require("thickness");
+    }
+    for (const LookTexture& texture : lookTextures) {
+        readLookTexture(look, texture, model, surfaces);
+    }
     look.finish();
 }
 

@@ -49,12 +49,6 @@ template <typename T> std::vector<std::uint32_t> keepMarked(std::vector<T>& item
     return moved;
 }
 
-/// The textures a surface refers to.
-std::array<std::uint32_t*, 5> texturesOf(Surface& surface) {
-    return {&surface.baseColorTexture, &surface.normalTexture, &surface.metallicRoughnessTexture,
-            &surface.thicknessTexture, &surface.emissionTexture};
-}
-
 /// Drops meshes, surfaces, materials and textures that no instance uses.
 void dropUnused(Scene& model) {
     std::vector<bool> meshes(model.meshes.size());
@@ -73,8 +67,8 @@ void dropUnused(Scene& model) {
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         if (surfaces[i]) {
             mark(materials, model.surfaces[i].material);
-            for (const std::uint32_t* texture : texturesOf(model.surfaces[i])) {
-                mark(textures, *texture);
+            for (const TextureSlot& slot : textureSlots) {
+                mark(textures, model.surfaces[i].*slot.texture);
             }
         }
     }
@@ -93,8 +87,8 @@ void dropUnused(Scene& model) {
     }
     for (Surface& surface : model.surfaces) {
         follow(surface.material, movedMaterials);
-        for (std::uint32_t* texture : texturesOf(surface)) {
-            follow(*texture, movedTextures);
+        for (const TextureSlot& slot : textureSlots) {
+            follow(surface.*slot.texture, movedTextures);
         }
     }
 }
@@ -262,8 +256,8 @@ void SceneFileModels::append(Scene model, const glm::dmat4& transform, const std
         index = index == none ? none : index + static_cast<std::uint32_t>(by);
     };
     for (Surface& surface : model.surfaces) {
-        for (std::uint32_t* texture : texturesOf(surface)) {
-            shift(*texture, scene_.textures.size());
+        for (const TextureSlot& slot : textureSlots) {
+            shift(surface.*slot.texture, scene_.textures.size());
         }
         shift(surface.material, scene_.materials.size());
     }

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_material.hpp"
 
+#include "scene/gltf/gltf_scale_texture.hpp"
 #include "scene/surface_material.hpp"
 #include "scene/texture.hpp"
 
@@ -54,22 +55,12 @@ Wrap wrapOf(const GltfFile& file, int wrap, const std::string& field) {
 glm::vec4 linearMean(const Texture& texture) {
     glm::dvec4 sum(0);
     const std::size_t count = texture.pixels.size() / 4;
-    std::array<double, 256> linear{};
-    for (std::size_t i = 0; i < linear.size(); ++i) {
-        const double c = static_cast<double>(i) / 255;
-        linear[i] = !texture.srgb ? c : (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-    }
+    const std::array<double, 256> linear = linearValues(texture.srgb);
     for (std::size_t pixel = 0; pixel < count; ++pixel) {
         const std::uint8_t* rgba = &texture.pixels[pixel * 4];
         sum += glm::dvec4(linear[rgba[0]], linear[rgba[1]], linear[rgba[2]], rgba[3] / 255.0);
     }
     return glm::vec4(sum / static_cast<double>(count));
-}
-
-void multiplyDiffuseTransmission(GltfMedium& medium, double factor) {
-    const bool isAll = medium.transmission == medium.thinTransmission; // of what enters
-    medium.thinTransmission *= factor;
-    medium.transmission = isAll ? medium.thinTransmission : medium.transmission;
 }
 
 void replaceLook(const GltfSpecularGlossiness& look, Surface& surface) {
@@ -148,16 +139,21 @@ void GltfMaterials::readTextures(const tinygltf::Material& source, const GltfMat
     surface.metallicRoughnessTexture = texture(metallicRoughness, false);
     surface.thicknessTexture = texture(thickness, false);
     surface.emissionTexture = texture(emission, true);
+    surface.transmissionTexture = texture(extensions.diffuseTransmissionTexture, false);
+    surface.transmissionColorTexture = texture(extensions.diffuseTransmissionColorTexture, true);
     // Where the texture cannot be read, its factor alone would light up what it leaves dark.
     if (emission.texture >= 0 && surface.emissionTexture == none) {
         surface.emission = glm::vec3(0);
     }
-    const std::array<std::pair<const GltfTextureUse&, TextureCoordinates&>, 5> uses{
+    const std::array<std::pair<const GltfTextureUse&, TextureCoordinates&>, 8> uses{
         {{baseColor, surface.baseColorUv},
          {normal, surface.normalUv},
          {metallicRoughness, surface.metallicRoughnessUv},
          {thickness, surface.thicknessUv},
-         {emission, surface.emissionUv}}};
+         {emission, surface.emissionUv},
+         {extensions.diffuseTransmissionTexture, surface.transmissionUv},
+         {extensions.diffuseTransmissionColorTexture, surface.transmissionColorUv},
+         {extensions.multiscatterColorTexture, surface.scaleUv}}};
     bool first = true;
     for (const auto& [use, coordinates] : uses) {
         if (use.texture < 0) {
@@ -182,29 +178,28 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfM
                                    const std::string& field, Surface& surface) {
     GltfMedium medium = extensions.medium;
     const bool textured = surface.baseColorTexture != none;
-    // A profile has one albedo, and a material one colour and one share of the light that comes through.
-    if (const std::uint32_t image = texture(extensions.multiscatterColorTexture, true); image != none) {
-        medium.multiscatterColor *= glm::vec3(mean(image));
+    const std::uint32_t colors = texture(extensions.multiscatterColorTexture, true);
+    if (colors != none) {
+        medium.multiscatterColor *= glm::vec3(mean(colors));
     }
-    const GltfTextureUse& through = extensions.diffuseTransmissionColorTexture;
-    if (const std::uint32_t colors = texture(through, true); colors != none) {
-        *medium.transmissionColor *= glm::vec3(mean(colors));
-        scene_.notes.push_back(file_.path.string() + ": " + through.field + " is averaged to one colour");
-    }
-    const GltfTextureUse& share = extensions.diffuseTransmissionTexture;
-    if (const std::uint32_t shares = texture(share, false); shares != none) {
-        multiplyDiffuseTransmission(medium, mean(shares).w);
-        scene_.notes.push_back(file_.path.string() + ": " + share.field + " is averaged to one share");
+    const bool isVolume = isDense(medium);
+    if (isVolume) {
+        setEntry(extensions, surface, medium);
     }
     if (medium.thickness > 0) {
         surface.thickness = static_cast<float>(medium.thickness * 1000);
     }
     std::optional<Material> material = makeMaterial(medium, source.name);
     if (!material) {
+        surface.transmissionTexture = surface.transmissionColorTexture = none;
         return;
     }
+    if (isVolume && colors != none) {
+        setScale(surface, medium, extensions.medium.multiscatterColor, colors);
+    }
     const bool dense = medium.scatters && medium.multiscatterColor != glm::vec3(0);
-    const float scattering = static_cast<float>(dense ? material->strength : 0);
+    const float entering = isVolume && surface.transmissionTexture != none ? mean(surface.transmissionTexture).w : 1;
+    const float scattering = dense ? entering * static_cast<float>(material->strength) : 0;
     if (!textured && dense) {
         const glm::vec3 seen = medium.multiscatterColor * medium.transmissionColor.value_or(glm::vec3(1));
         surface.baseColor = glm::vec4(glm::mix(glm::vec3(surface.baseColor), seen, scattering), surface.baseColor.w);
@@ -216,6 +211,41 @@ void GltfMaterials::readSubsurface(const tinygltf::Material& source, const GltfM
     material->roughness = surface.roughness;
     material->specular = surface.specular;
     surface.material = addMaterial(scene_, std::move(*material), file_.path.string() + ": " + field);
+}
+
+void GltfMaterials::setEntry(const GltfMaterialExtensions& extensions, Surface& surface, GltfMedium& medium) {
+    if (surface.transmissionColorTexture != none) {
+        *medium.transmissionColor *= glm::vec3(mean(surface.transmissionColorTexture));
+        scene_.notes.push_back(file_.path.string() + ": " + extensions.diffuseTransmissionColorTexture.field +
+                               " is averaged to one colour, because the volume scatters");
+    }
+    surface.transmissionColorTexture = none;
+    if (medium.transmission > medium.thinTransmission) { // which then says how much enters
+        surface.transmissionTexture = none;
+    }
+    surface.transmissionSetsStrength = surface.transmissionTexture != none;
+}
+
+void GltfMaterials::setScale(Surface& surface, const GltfMedium& medium, const glm::vec3& factor,
+                             std::uint32_t colors) {
+    const std::array<float, 8> lengths{factor.x,
+                                       factor.y,
+                                       factor.z,
+                                       medium.attenuationColor.x,
+                                       medium.attenuationColor.y,
+                                       medium.attenuationColor.z,
+                                       static_cast<float>(medium.attenuationDistance),
+                                       static_cast<float>(medium.anisotropy)};
+    const auto [entry, isNew] = scales_.try_emplace({colors, lengths});
+    if (isNew) {
+        file_.budget->charge(scene_.textures[colors]);
+        if (auto made = makeScaleTexture(medium, factor, scene_.textures[colors])) {
+            entry->second = {made->largest, static_cast<std::uint32_t>(scene_.textures.size())};
+            scene_.textures.push_back(std::move(made->texture));
+        }
+    }
+    surface.scale = entry->second.largest;
+    surface.scaleTexture = entry->second.texture;
 }
 
 const glm::vec4& GltfMaterials::mean(std::uint32_t texture) {

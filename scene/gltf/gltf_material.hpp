@@ -25,6 +25,10 @@ private:
                       const std::string& field, Surface& surface, std::array<int, 2>& texCoords);
     void readSubsurface(const tinygltf::Material& source, const GltfMaterialExtensions& extensions,
                         const std::string& field, Surface& surface);
+    /// What the textures of the transmission say of light that enters a medium that scatters it in all directions.
+    void setEntry(const GltfMaterialExtensions& extensions, Surface& surface, GltfMedium& medium);
+    /// The texture of lengths that belongs to that of colours, of which `medium` has the mean.
+    void setScale(Surface& surface, const GltfMedium& medium, const glm::vec3& factor, std::uint32_t colors);
     /// The image of a texture; -1, with a note, where nothing that is read supplies one.
     int imageOf(const tinygltf::Texture& texture, const std::string& field);
     std::uint32_t texture(const GltfTextureUse& use, bool srgb);
@@ -38,6 +42,12 @@ private:
     /// By where it is, sRGB and how it is sampled.
     std::map<std::tuple<std::string, bool, Wrap, Wrap, bool>, std::uint32_t> textures_;
     std::map<std::uint32_t, glm::vec4> means_;
+    struct Scale {
+        float largest = 1;
+        std::uint32_t texture = none;
+    };
+    /// By the texture of colours and all that lengths depend on.
+    std::map<std::pair<std::uint32_t, std::array<float, 8>>, Scale> scales_;
 };
 
 } // namespace nacre::scene

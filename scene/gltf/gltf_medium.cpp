@@ -26,11 +26,8 @@ double extinction(const GltfMedium& medium, int channel) {
     return medium.attenuationDistance > 0 ? -std::log(color) / medium.attenuationDistance : 0;
 }
 
-double denseMeanFreePath(const GltfMedium& medium, int channel) {
-    const double albedo = std::clamp(static_cast<double>(medium.multiscatterColor[channel]), 0.0, 1.0);
-    const double alpha = singleScatteringAlbedo(albedo, medium.anisotropy);
-    const double meanFreePath = reducedMeanFreePath(1 / extinction(medium, channel), alpha, medium.anisotropy);
-    return clampLength(millimetresPerMetre * meanFreePath / burleyShape(albedo, BurleyEntry::Diffuse));
+double ownMeanFreePath(const GltfMedium& medium, int channel) {
+    return denseMeanFreePath(medium, channel, static_cast<double>(medium.multiscatterColor[channel]));
 }
 
 double absorbingMeanFreePath(const GltfMedium& medium, int channel) {
@@ -50,18 +47,36 @@ std::optional<Rgb> transmissionColor(const GltfMedium& medium) {
     return Rgb{medium.transmissionColor->x, medium.transmissionColor->y, medium.transmissionColor->z};
 }
 
+bool isVolumetric(const GltfMedium& medium) {
+    return medium.thickness > 0 && medium.attenuationDistance > 0 && medium.attenuationColor != glm::vec3(1);
+}
+
+double enteringShare(const GltfMedium& medium) {
+    return medium.transmits ? medium.transmission : 1;
+}
+
 } // namespace
 
+double denseMeanFreePath(const GltfMedium& medium, int channel, double color) {
+    const double albedo = std::clamp(color, 0.0, 1.0);
+    const double alpha = singleScatteringAlbedo(albedo, medium.anisotropy);
+    const double meanFreePath = reducedMeanFreePath(1 / extinction(medium, channel), alpha, medium.anisotropy);
+    return clampLength(millimetresPerMetre * meanFreePath / burleyShape(albedo, BurleyEntry::Diffuse));
+}
+
+bool isDense(const GltfMedium& medium) {
+    return isVolumetric(medium) && medium.scatters && medium.multiscatterColor != glm::vec3(0) &&
+           enteringShare(medium) > 0;
+}
+
 std::optional<Material> makeMaterial(const GltfMedium& medium, const std::string& name) {
-    const bool volumetric =
-        medium.thickness > 0 && medium.attenuationDistance > 0 && medium.attenuationColor != glm::vec3(1);
+    const bool volumetric = isVolumetric(medium);
     const bool scatters = medium.scatters && medium.multiscatterColor != glm::vec3(0);
-    const double enters = medium.transmits ? medium.transmission : 1;
     Material material;
     material.name = name;
-    if (volumetric && scatters && enters > 0) {
-        material.meanFreePath = perChannel(medium, denseMeanFreePath);
-        material.strength = enters;
+    if (isDense(medium)) {
+        material.meanFreePath = perChannel(medium, ownMeanFreePath);
+        material.strength = material.translucency = enteringShare(medium);
         material.albedo = {medium.multiscatterColor.x, medium.multiscatterColor.y, medium.multiscatterColor.z};
         return material;
     }

@@ -22,10 +22,17 @@ struct GltfMedium {
 /// [mm] Thickness given to thin walls: so thin that nothing is lost on the way through.
 inline constexpr double thinWallThickness = 0.01;
 
+/// [mm] d of a dense medium in that channel where its multiscatterColor is `color`.
+double denseMeanFreePath(const GltfMedium& medium, int channel, double color);
+
+/// Whether the medium is dense: a volume that scatters, and that light enters.
+bool isDense(const GltfMedium& medium);
+
 /// The subsurface material, or nothing for a medium that does not scatter:
 ///  - dense media (volume with scattering): A = multiscatterColor; single-scattering albedo α by Kulla and Conty's
 ///    inversion; σt = −ln(attenuationColor)/attenuationDistance; ℓ' = 1/(σt(1 − αg)); d = ℓ'/s(A) with
-///    s = 1.9 − A + 3.5(A − 0.8)² (Christensen and Burley 2015, diffuse transmission);
+///    s = 1.9 − A + 3.5(A − 0.8)² (Christensen and Burley 2015, diffuse transmission); strength and translucency =
+///    the share of the light that enters;
 ///  - volumes without scattering behind a diffuse transmission: d such that a slab of attenuationDistance transmits
 ///    attenuationColor;
 ///  - thin walls: diffuseTransmission = the transmitted share, with a spread of 0.3 mm, a leaf's thickness, chosen by

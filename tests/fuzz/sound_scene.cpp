@@ -48,20 +48,16 @@ void requireSound(const scene::Scene& scene, const scene::Mesh& mesh) {
 }
 
 void requireSound(const scene::Scene& scene, const scene::Surface& surface) {
-    for (const std::uint32_t texture : {surface.baseColorTexture, surface.normalTexture, surface.emissionTexture,
-                                        surface.metallicRoughnessTexture, surface.thicknessTexture}) {
-        require(isIndex(texture, scene.textures, true), "surface's textures");
+    for (const scene::TextureSlot& slot : scene::textureSlots) {
+        require(isIndex(surface.*slot.texture, scene.textures, true), "surface's textures");
+        const glm::mat3& uv = (surface.*slot.coordinates).transform;
+        require(isFinite(uv[0]) && isFinite(uv[1]) && isFinite(uv[2]), "surface's texture coordinates");
     }
     require(isIndex(surface.material, scene.materials, true), "surface.material");
     require(isFinite(surface.baseColor) && isFinite(surface.emission), "surface's colours");
     require(std::isfinite(surface.metallic) && std::isfinite(surface.roughness) && std::isfinite(surface.specular) &&
-                std::isfinite(surface.normalScale) && std::isfinite(surface.thickness),
+                std::isfinite(surface.normalScale) && std::isfinite(surface.thickness) && std::isfinite(surface.scale),
             "surface's numbers");
-    for (const scene::TextureCoordinates& uv : {surface.baseColorUv, surface.normalUv, surface.metallicRoughnessUv,
-                                                surface.thicknessUv, surface.emissionUv}) {
-        require(isFinite(uv.transform[0]) && isFinite(uv.transform[1]) && isFinite(uv.transform[2]),
-                "surface's texture coordinates");
-    }
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 // glTF extensions: compression, quantisation, texture transforms, subsurface media.
 #include "nacre/media.hpp"
+#include "scene/gltf/gltf_medium.hpp"
+#include "scene/texture.hpp"
 #include "tests/support/gltf_builder.hpp"
 
 #include <draco/compression/encode.h>
@@ -225,6 +227,63 @@ TEST(GltfExtensions, MapDenseMediaInBothSpellings) {
             EXPECT_NEAR((*material.meanFreePath)[static_cast<std::size_t>(c)], expected, 1e-4 * expected);
         }
     }
+}
+
+/// A PNG of two texels: (255, 188, 0) and (188, 64, 128).
+const std::string twoTexels =
+    "data:image/"
+    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4v4dhj0MDAAzhAzjSsCbOAAAAAElFTkSuQmCC";
+
+TEST(GltfExtensions, MakeLengthsOfATextureOfColours) {
+    const std::array factor{1.0, 0.5, 1.0};
+    const auto squareOf = [&](const Json& colors) {
+        GltfBuilder builder = squareWith({{"KHR_materials_volume", volume},
+                                          {"KHR_materials_volume_scatter",
+                                           {{"multiscatterColorFactor", factor},
+                                            {"scatterAnisotropy", 0.5},
+                                            {"multiscatterColorTexture", colors}}}});
+        builder.json["images"] = {{{"uri", twoTexels}}};
+        builder.json["textures"] = {{{"source", 0}}};
+        return builder;
+    };
+    const Scene scene = squareOf({{"index", 0}}).load();
+    const Surface& surface = scene.surfaces.at(0);
+    const Texture& colors = scene.textures.at(surface.baseColorTexture);
+    const Texture& lengths = scene.textures.at(surface.scaleTexture);
+    EXPECT_TRUE(colors.srgb);
+    EXPECT_FALSE(lengths.srgb);
+    ASSERT_EQ(lengths.pixels.size(), 8u);
+    const std::array<double, 256> linear = linearValues(true);
+    const GltfMedium medium{.attenuationDistance = 0.004, .attenuationColor = {0.5f, 0.25f, 0.125f}, .anisotropy = 0.5};
+    for (std::size_t texel = 0; texel < 2; ++texel) {
+        double expected = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double color = factor[c] * linear[colors.pixels[4 * texel + c]];
+            const double there = denseMeanFreePath(medium, static_cast<int>(c), color);
+            expected += there / scene.materials.at(0).meanFreePath->at(c) / 3;
+        }
+        const double actual = surface.scale * static_cast<float>(lengths.pixels[4 * texel]) / 255;
+        EXPECT_NEAR(actual, expected, surface.scale / 255) << texel;
+    }
+    EXPECT_EQ(std::max(lengths.pixels[0], lengths.pixels[4]), 255);
+    EXPECT_LT(std::min(lengths.pixels[0], lengths.pixels[4]), 250);
+    EXPECT_TRUE(scene.notes.empty());
+}
+
+TEST(GltfExtensions, MakeNoLengthsOfOneColour) {
+    GltfBuilder builder =
+        squareWith({{"KHR_materials_volume", volume},
+                    {"KHR_materials_volume_scatter",
+                     {{"multiscatterColorFactor", {0, 0.5, 0}}, {"multiscatterColorTexture", {{"index", 0}}}}}});
+    // Green of both texels is the same.
+    builder.json["images"] = {
+        {{"uri", "data:image/"
+                 "png;base64,"
+                 "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4n8KwJ6UBAAtxAwQ0eAJWAAAAAElFTkSuQmCC"}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.surfaces.at(0).scaleTexture, none);
+    EXPECT_EQ(scene.surfaces[0].scale, 1);
 }
 
 TEST(GltfExtensions, KeepTheDefaultsOfTheSpecifications) {

@@ -241,26 +241,54 @@ TEST(GltfMeaning, HiddenNodesHideTheirChildren) {
         << builder.error();
 }
 
-// A material has one share and one colour of the light that comes through: those of the textures' means.
+/// A PNG of one pixel: 255, 188, 0 and an alpha of 51.
+const std::string clearPixel =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4v4fBGAAGaAHvALWOcAAAAABJRU5ErkJggg==";
+
 TEST(GltfMeaning, DiffuseTransmissionHasTextures) {
-    const std::string pixel = // 255, 188, 0 and an alpha of 51
-        "data:image/png;base64,"
-        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGP4v4fBGAAGaAHvALWOcAAAAABJRU5ErkJggg==";
-    GltfBuilder builder = texturedSquare({{"extensions",
-                                           {{"KHR_materials_diffuse_transmission",
-                                             {{"diffuseTransmissionFactor", 0.5},
-                                              {"diffuseTransmissionTexture", {{"index", 0}}},
-                                              {"diffuseTransmissionColorFactor", {0.5, 0.5, 0.5}},
-                                              {"diffuseTransmissionColorTexture", {{"index", 0}}}}}}}});
-    builder.json["images"][0]["uri"] = pixel;
+    GltfBuilder builder =
+        texturedSquare({{"extensions",
+                         {{"KHR_materials_diffuse_transmission",
+                           {{"diffuseTransmissionFactor", 0.5},
+                            {"diffuseTransmissionTexture", {{"index", 0}}},
+                            {"diffuseTransmissionColorFactor", {0.5, 0.5, 0.5}},
+                            {"diffuseTransmissionColorTexture",
+                             {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 1}}}}}}}}}}}}});
+    builder.json["images"][0]["uri"] = clearPixel;
     const Scene scene = builder.load();
-    const Material& material = scene.materials.at(0);
-    EXPECT_NEAR(material.diffuseTransmission, 0.5 * 51 / 255, 1e-6);
-    ASSERT_TRUE(material.diffuseTransmissionColor);
-    EXPECT_NEAR(material.diffuseTransmissionColor->at(0), 0.5, 1e-6);
-    EXPECT_NEAR(material.diffuseTransmissionColor->at(1), 0.5 * 0.5029, 1e-4); // sRGB
-    EXPECT_TRUE(hasNote(scene, "diffuseTransmissionTexture is averaged to one share"));
-    EXPECT_TRUE(hasNote(scene, "diffuseTransmissionColorTexture is averaged to one colour"));
+    EXPECT_DOUBLE_EQ(scene.materials.at(0).diffuseTransmission, 0.5);
+    EXPECT_EQ(scene.materials[0].diffuseTransmissionColor, (Rgb{0.5, 0.5, 0.5}));
+    const Surface& surface = scene.surfaces.at(0);
+    EXPECT_EQ(scene.textures.at(surface.transmissionTexture).pixels[3], 51);
+    EXPECT_FALSE(surface.transmissionSetsStrength);
+    EXPECT_TRUE(scene.textures.at(surface.transmissionColorTexture).srgb);
+    EXPECT_EQ(surface.transmissionUv.transform[0].x, 1);
+    EXPECT_EQ(surface.transmissionColorUv.transform[0].x, 2);
+    EXPECT_TRUE(scene.notes.empty());
+}
+
+// A volume that scatters lets light in by the share, and has one colour.
+TEST(GltfMeaning, DiffuseTransmissionOfAVolumeHasTextures) {
+    GltfBuilder builder = texturedSquare(
+        {{"extensions",
+          {{"KHR_materials_volume",
+            {{"thicknessFactor", 0.01}, {"attenuationDistance", 0.001}, {"attenuationColor", {0.5, 0.5, 0.5}}}},
+           {"KHR_materials_volume_scatter", {{"multiscatterColorFactor", {0.5, 0.5, 0.5}}}},
+           {"KHR_materials_diffuse_transmission",
+            {{"diffuseTransmissionFactor", 0.5},
+             {"diffuseTransmissionTexture", {{"index", 0}}},
+             {"diffuseTransmissionColorTexture", {{"index", 0}}}}}}}});
+    builder.json["images"][0]["uri"] = clearPixel;
+    const Scene scene = builder.load();
+    EXPECT_DOUBLE_EQ(scene.materials.at(0).strength, 0.5);
+    EXPECT_DOUBLE_EQ(scene.materials[0].translucency, 0.5);
+    const Surface& surface = scene.surfaces.at(0);
+    EXPECT_EQ(scene.textures.at(surface.transmissionTexture).pixels[3], 51);
+    EXPECT_TRUE(surface.transmissionSetsStrength);
+    EXPECT_EQ(surface.transmissionColorTexture, none);
+    EXPECT_TRUE(hasNote(scene, "diffuseTransmissionColorTexture is averaged to one colour, because the volume"));
+    ASSERT_EQ(scene.notes.size(), 1u);
 }
 
 } // namespace

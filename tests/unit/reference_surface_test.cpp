@@ -125,6 +125,25 @@ TEST(SurfaceIntegralExchangeTest, LightCrossesBetweenMaterialsOnlyWhereTheyExcha
     expectClose(scatteredBelow(scene, {-0.5f, 4, 0}, 8000, false), glm::dvec3(profile.lineSpreadCumulative(0, 0.5)));
 }
 
+TEST(SurfaceIntegralScaleTest, LengthsAreTheSurfacesTimesTheMaterials) {
+    const Material material = burleyMaterial({1, 0.5, 0.25});
+    scene::Scene scene = darkScene();
+    const std::uint32_t surface = addSurface(scene, &material);
+    scene.textures.push_back({.name = "half", .width = 1, .height = 1, .pixels = {51, 255, 255, 255}});
+    scene.surfaces[surface].scaleTexture = 0;
+    scene.surfaces[surface].scale = 10; // times a fifth
+    addMesh(scene, rectangle({-300, -300}, {300, 300}, 0), surface);
+    addMesh(scene, rectangle({-300, -300}, {0, 300}, 5), addSurface(scene, nullptr));
+    scene.lights = {directionalLight({0, -1, 0})};
+    const BurleyProfile wide({2, 1, 0.5});
+    for (const float x : {-0.5f, 1.0f}) {
+        SCOPED_TRACE(x);
+        expectClose(
+            scatteredBelow(scene, {x, 4, 0}, 12000),
+            {wide.lineSpreadCumulative(0, x), wide.lineSpreadCumulative(1, x), wide.lineSpreadCumulative(2, x)});
+    }
+}
+
 TEST(SurfaceIntegralSheetTest, ADoubleSidedSheetIsLitFromBothSides) {
     const Material material = burleyMaterial({1, 0.5, 0.25});
     scene::Scene scene = darkScene();

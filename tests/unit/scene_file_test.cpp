@@ -72,7 +72,9 @@ Json everything() {
                     "translate": [1, 2, 3], "rotate": [0, 0, 90], "scale": 2, "material": "skin",
                     "materials": {"red": "soap.json"},
                     "surface": {"baseColor": [0.1, 0.2, 0.3], "metallic": 0.4, "roughness": 0.5, "specular": 0.7,
-                                "thickness": 5, "thicknessTexture": "thick.png", "doubleSided": true},
+                                "thickness": 5, "thicknessTexture": "thick.png", "scale": 2, "scaleTexture": "thick.png",
+                                "transmissionTexture": "thick.png", "transmissionColorTexture": "thick.png",
+                                "doubleSided": true},
                     "surfaces": {"red": {"roughness": 0.6}}}],
         "lights": [{"name": "l", "type": "spot", "color": [1, 2, 3], "intensity": 4, "position": [1, 2, 3],
                     "direction": [0, 0, -2], "range": 5, "innerConeAngle": 10, "outerConeAngle": 60,
@@ -105,6 +107,10 @@ TEST_F(SceneFile, SetsEveryMember) {
     const Texture& thickness = scene.textures.at(surface.thicknessTexture);
     EXPECT_FALSE(thickness.srgb);
     EXPECT_EQ(thickness.pixels[1], 51); // green of the first texel, 0.2
+    EXPECT_FLOAT_EQ(surface.scale, 2);
+    EXPECT_FALSE(scene.textures.at(surface.scaleTexture).srgb);
+    EXPECT_FALSE(scene.textures.at(surface.transmissionTexture).srgb);
+    EXPECT_TRUE(scene.textures.at(surface.transmissionColorTexture).srgb);
     EXPECT_TRUE(surface.doubleSided);
     ASSERT_EQ(scene.lights.size(), 1u);
     const Light& light = scene.lights[0];

@@ -130,7 +130,8 @@ std::optional<Inspection> inspect(const trace::Geometry& geometry, const EditedS
         return result;
     }
     result.material = material;
-    const Material drawn = edited.materials[material].drawn();
+    Material drawn = edited.materials[material].drawn();
+    drawn.scale *= static_cast<double>(point.scale);
     const double radius = widestRadius(drawn);
     result.sentence = scatterSentence(drawn, effect, radius, radius * result.pixelsPerMillimeter) + " " +
                       transmitSentence(geometry, edited, drawn, effect, point);
