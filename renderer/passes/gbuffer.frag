@@ -26,7 +26,7 @@ void main() {
     float thickness = surface.thickness.x;
     if (thickness > 0.0 && has(hasThicknessTexture)) {
         // A small positive value keeps an authored zero apart from "none".
-        thickness = max(thickness * texture(thicknessTexture, inUv[thicknessSlot]).g, 1e-3);
+        thickness = max(thickness * texture(thicknessTexture, settled(inUv[thicknessSlot])).g, 1e-3);
     }
 
     outDepth = inDepth;

@@ -13,11 +13,17 @@ layout(set = 1, binding = 2) uniform sampler2D metallicRoughnessTexture;
 layout(set = 1, binding = 3) uniform sampler2D thicknessTexture;
 layout(set = 1, binding = 4) uniform sampler2D emissionTexture;
 
+/// Texture coordinates without the rounding of their interpolation, which at the edge of a body could lead to the
+/// other side of a picture that repeats: whole steps of 2^-20, a 64th of a texel of the largest pictures.
+vec2 settled(vec2 uv) {
+    return round(uv * 1048576.0) / 1048576.0;
+}
+
 bool has(uint flag) {
     return (draw.index.w & flag) != 0u;
 }
 
 /// What multiplies the surface's base colour; `vertexColor` is the vertices' own.
 vec4 textureColor(vec2 uv, vec4 vertexColor) {
-    return has(hasBaseColorTexture) ? vertexColor * texture(baseColorTexture, uv) : vertexColor;
+    return has(hasBaseColorTexture) ? vertexColor * texture(baseColorTexture, settled(uv)) : vertexColor;
 }
