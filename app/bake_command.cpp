@@ -208,8 +208,9 @@ void finish(const BakeOptions& options, const BakeResult& result) {
         writeText(options.json, makeReport(options, result));
     }
     if (options.json != "-") {
-        std::cout << printable(describeBake(options, result));
+        std::cout << printable(describeBake(options, result)) << std::flush;
     }
+    printNotes(result.notes);
 }
 
 void stopInterrupted(const std::filesystem::path& checkpoint, const trace::Identity& identity,
@@ -225,7 +226,6 @@ void bakeThickness(const BakeOptions& options) {
         const Progress progress("loading " + sceneName(options));
         return makeScene(options);
     }();
-    printNotes(scene);
     requireInputsKept(options, scene, {options.output, options.json});
     const std::uint32_t surface = chooseSurface(options, scene);
     const Material* const material = chooseMaterial(options, scene, surface);
@@ -248,6 +248,7 @@ void bakeThickness(const BakeOptions& options) {
         std::filesystem::remove(checkpoint);
         BakeResult result;
         result.scene = sceneName(options);
+        result.notes = scene.notes;
         result.surface = surface == scene::none ? "" : scene.surfaces[surface].name;
         result.law = law;
         result.state = bake.state();

@@ -1,5 +1,7 @@
 #include "app/bake_report.hpp"
 
+#include "app/scene_report.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -36,7 +38,7 @@ std::string makeReport(const BakeOptions& options, const BakeResult& result) {
     const ThicknessRange range = rangeOf(result.state.millimetres);
     Json report{{"schemaVersion", bakeReportVersion},
                 {"nacreVersion", NACRE_VERSION},
-                {"scene", result.scene},
+                {"scene", describeScene(result.scene, result.notes)},
                 {"surface", result.surface.empty() ? Json(nullptr) : Json(result.surface)},
                 {"law", result.law},
                 {"rays", options.settings.samples},

@@ -7,8 +7,9 @@ namespace nacre::app {
 
 struct BakeResult {
     std::string scene;
-    std::string surface; ///< its name; empty for all
-    std::string law;     ///< a material's name, or "neutral"
+    std::vector<std::string> notes; ///< Scene::notes
+    std::string surface;            ///< its name; empty for all
+    std::string law;                ///< a material's name, or "neutral"
     bake::ThicknessState state;
     std::size_t texels = 0; ///< of the picture; 0 for a mesh
     double white = 0;       ///< [mm] what a PNG's white stands for; 0 for others

@@ -1,6 +1,7 @@
 // `nacre bench`: the suites, what can be done with their results, and times of the effect alone.
 #include "app/command.hpp"
 #include "app/interruption.hpp"
+#include "app/render_scene.hpp"
 #include "bench/effect/context_times.hpp"
 #include "bench/effect/effect_suites.hpp"
 #include "bench/effect/shader_statistics.hpp"
@@ -62,6 +63,7 @@ void runSuite(const Suite& suite, const SuiteOptions& options) {
     renderer::Device device(options.device);
     say("making the scenes");
     const bench::Plan plan = suite.plan(options.suite);
+    printNotes(bench::notesOf(plan));
     const std::string json = bench::formatResults(bench::runPlan(device, plan, options.suite, folder.draft(), say));
     writeText(folder.draft() / "results.json", json);
     folder.publish(); // what has been measured is not thrown away

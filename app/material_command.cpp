@@ -146,9 +146,12 @@ void importMaterial(const ImportOptions& options) {
     const auto* unit = std::ranges::find(scene::lengthUnits, std::string_view(options.units),
                                          [](const auto& known) { return std::string_view(known.name); });
     const auto metersPerUnit = unit != scene::lengthUnits.end() ? std::optional(unit->metres) : std::nullopt;
-    const auto [material, notes] = scene::importMaterialX(options.document, options.name, metersPerUnit);
+    const auto [material, notes, inputs] = scene::importMaterialX(options.document, options.name, metersPerUnit);
+    for (const std::string& input : inputs) {
+        requireDistinctFiles({input, options.json});
+    }
     if (options.json.empty()) {
-        std::cout << describeMaterial(material);
+        std::cout << describeMaterial(material) << std::flush;
     } else {
         writeText(options.json, formatMaterial(material));
     }

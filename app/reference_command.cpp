@@ -131,7 +131,9 @@ void finish(const ReferenceResult& result, const std::filesystem::path& json) {
     }
     if (json != "-") {
         summarise(result);
+        std::cout.flush();
     }
+    printNotes(result.notes);
 }
 
 void compute(ReferenceOptions options) {
@@ -141,7 +143,6 @@ void compute(ReferenceOptions options) {
         const Progress progress("loading " + sceneName(options));
         return makeScene(options);
     }();
-    printNotes(scene);
     requireInputsKept(options, scene, {options.output, options.json});
     const scene::Camera camera = makeCamera(options, scene);
     runInterruptibly([&] {
@@ -155,6 +156,7 @@ void compute(ReferenceOptions options) {
         result.checkpoint = {reference.identity(), options.settings.part, reference.film()};
         result.file = options.output;
         result.scene = sceneName(options);
+        result.notes = scene.notes;
         result.stoppedBy = stoppedBy(stopped);
         result.seconds = reference.film().seconds - secondsBefore;
         const auto samples = static_cast<double>(reference.film().sampleCount() - samplesBefore);

@@ -1,5 +1,7 @@
 #include "app/reference_report.hpp"
 
+#include "app/scene_report.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -41,7 +43,7 @@ std::string makeReport(const ReferenceResult& result) {
     const double noise = film.noise();
     const Json report{{"schemaVersion", referenceReportVersion},
                       {"nacreVersion", NACRE_VERSION},
-                      {"scene", result.scene},
+                      {"scene", describeScene(result.scene, result.notes)},
                       {"settings", settings},
                       {"spp", {{"least", least}, {"most", most}}},
                       {"noise", std::isfinite(noise) ? Json(noise) : Json(nullptr)},

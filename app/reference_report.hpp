@@ -10,8 +10,9 @@ struct ReferenceResult {
     reference::Checkpoint checkpoint; ///< what was computed
     std::filesystem::path file;
     std::string scene;
-    std::string stoppedBy; ///< spp, time, noise, interruption or merge
-    double seconds = 0;    ///< of this run
+    std::vector<std::string> notes; ///< Scene::notes; none of merged parts
+    std::string stoppedBy;          ///< spp, time, noise, interruption or merge
+    double seconds = 0;             ///< of this run
     double samplesPerSecond = 0;
     std::vector<std::string> warnings;
 };

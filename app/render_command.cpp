@@ -86,7 +86,7 @@ void render(const RenderOptions& options) {
         summarise(options, device.description(), frame);
         std::cout.flush();
     }
-    printNotes(scene);
+    printNotes(scene.notes);
     failOnValidation(device.validationMessages());
 }
 

@@ -143,8 +143,8 @@ Scene makeScene(const SceneOptions& options) {
     return scene;
 }
 
-void printNotes(const Scene& scene) {
-    for (const std::string& note : scene.notes) {
+void printNotes(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
         std::cerr << "nacre: note: " << printable(note) << '\n';
     }
 }

@@ -14,7 +14,7 @@ std::string sceneName(const SceneOptions& options);
 scene::Scene makeScene(const SceneOptions& options);
 
 /// Says on standard error what the importer left out or assumed (Scene::notes).
-void printNotes(const scene::Scene& scene);
+void printNotes(const std::vector<std::string>& notes);
 
 /// Throws std::runtime_error where an output would replace a file that the scene is made of, however deep that is
 /// named. Empty names and "-" are not looked at.

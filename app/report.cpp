@@ -1,6 +1,7 @@
 #include "app/report.hpp"
 
 #include "app/render_scene.hpp"
+#include "app/scene_report.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -62,13 +63,13 @@ Json describe(const scene::Scene& scene, const renderer::FrameReport& frame, con
     for (const scene::Light& light : scene.lights) {
         lights.push_back(light.name);
     }
-    return {{"name", name},
-            {"triangleCount", frame.triangles},
-            {"lightCount", frame.lights},
-            {"materialCount", frame.materials},
-            {"lights", lights},
-            {"materials", materials},
-            {"notes", scene.notes}};
+    Json result = describeScene(name, scene.notes);
+    result.update({{"triangleCount", frame.triangles},
+                   {"lightCount", frame.lights},
+                   {"materialCount", frame.materials},
+                   {"lights", lights},
+                   {"materials", materials}});
+    return result;
 }
 
 Json describe(const renderer::FrameReport& frame) {

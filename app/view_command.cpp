@@ -1,6 +1,7 @@
 // `nacre view`: a window to build materials in.
 #include "app/command.hpp"
 #include "app/render_scene.hpp"
+#include "app/scene_report.hpp"
 #include "app/view_report.hpp"
 #include "view/loop/headless.hpp"
 
@@ -9,6 +10,7 @@
 #endif
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <iostream>
@@ -64,7 +66,7 @@ void runHeadless(const ViewOptions& options) {
     }
     renderer::Device device(options.device);
     scene::Scene scene = makeScene(options);
-    printNotes(scene);
+    printNotes(scene.notes);
     scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
     const bool toTerminal = options.json != "-";
     if (toTerminal) {
@@ -82,7 +84,8 @@ void runHeadless(const ViewOptions& options) {
     }
     failOnMessages(device);
     if (!options.json.empty()) {
-        writeText(options.json, makeReport(device.description(), settings, runs));
+        writeText(options.json,
+                  makeReport(device.description(), describeScene(sceneName(options), scene.notes), settings, runs));
     }
 }
 
@@ -118,7 +121,7 @@ void runTurntable(const ViewOptions& options) {
     parseRange(options.frames, settings);
     renderer::Device device(options.device);
     scene::Scene scene = makeScene(options);
-    printNotes(scene);
+    printNotes(scene.notes);
     scene.cameras.insert(scene.cameras.begin(), makeCamera(options, scene));
     nacre::view::drawTurntable(device, scene, settings);
     failOnMessages(device);
@@ -139,7 +142,7 @@ void view(const ViewOptions& options) {
     settings.input = options.input;
     settings.load = [&options] {
         scene::Scene scene = makeScene(options);
-        printNotes(scene);
+        printNotes(scene.notes);
         const scene::Camera camera = makeCamera(options, scene);
         std::erase_if(scene.cameras, [&](const scene::Camera& other) { return other.name == camera.name; });
         scene.cameras.insert(scene.cameras.begin(), camera);

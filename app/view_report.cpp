@@ -64,11 +64,12 @@ void printRun(std::ostream& out, const NamedRun& named) {
     }
 }
 
-std::string makeReport(const renderer::DeviceDescription& device, const view::HeadlessSettings& settings,
-                       const std::vector<NamedRun>& runs) {
+std::string makeReport(const renderer::DeviceDescription& device, const nlohmann::ordered_json& scene,
+                       const view::HeadlessSettings& settings, const std::vector<NamedRun>& runs) {
     Json report{{"schemaVersion", viewReportVersion},
                 {"nacreVersion", NACRE_VERSION},
                 {"device", {{"name", device.name}, {"kind", device.kind}, {"driver", device.driver}}},
+                {"scene", scene},
                 {"width", settings.width},
                 {"height", settings.height},
                 {"shadowMapSize", settings.shadowMapSize},

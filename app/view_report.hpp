@@ -3,6 +3,8 @@
 
 #include "view/loop/headless.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <ostream>
 #include <string>
 #include <vector>
@@ -21,7 +23,8 @@ const char* movingName(view::Moving moving);
 /// A table for a terminal.
 void printRun(std::ostream& out, const NamedRun& run);
 
-std::string makeReport(const renderer::DeviceDescription& device, const view::HeadlessSettings& settings,
-                       const std::vector<NamedRun>& runs);
+/// `scene` is describeScene's.
+std::string makeReport(const renderer::DeviceDescription& device, const nlohmann::ordered_json& scene,
+                       const view::HeadlessSettings& settings, const std::vector<NamedRun>& runs);
 
 } // namespace nacre::app

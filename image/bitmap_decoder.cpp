@@ -4,6 +4,7 @@
 #include "image/codecs.hpp"
 #include "nacre/files.hpp"
 
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -30,9 +31,11 @@ IntegerImage decodeBitmapHere(std::span<const std::uint8_t> bytes, const std::st
     int channels = 0;
     const int count = static_cast<int>(bytes.size());
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
-        stbi_info_from_memory(bytes.data(), count, &width, &height, &channels) == 0 || width <= 0 || height <= 0) {
+        stbi_info_from_memory(bytes.data(), count, &width, &height, &channels) == 0 || width <= 0 || height == 0 ||
+        height == std::numeric_limits<int>::min()) {
         throw FileError(name + ": is not a PNG, JPEG, WebP, BMP or TGA image that can be read");
     }
+    height = std::abs(height); // a BMP whose first row is its uppermost has a negative one
     requireShowable(name, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
     if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) >
         mostBitmapPixelsPerByte * bytes.size()) {

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <memory>
+#include <string_view>
 #include <turbojpeg.h>
 
 namespace nacre {
@@ -18,13 +19,34 @@ using Decoder = std::unique_ptr<void, Destroy>;
     throw FileError(name + ": the JPEG image cannot be decoded: " + tjGetErrorStr2(decoder.get()));
 }
 
-/// Ink as Adobe's programs store it, turned round.
-std::vector<std::uint8_t> rgbOf(const std::vector<std::uint8_t>& cmyk) {
+/// Whether a file has the marker of Adobe's programs (APP14) before its first scan.
+bool hasAdobeMarker(std::span<const std::uint8_t> bytes) {
+    constexpr std::uint8_t app14 = 0xee;
+    constexpr std::uint8_t startOfScan = 0xda;
+    constexpr std::string_view name = "Adobe";
+    for (std::size_t i = 2; i + 4 < bytes.size() && bytes[i] == 0xff && bytes[i + 1] != startOfScan;) {
+        if (bytes[i + 1] == 0xff) { // filling
+            ++i;
+            continue;
+        }
+        const auto content = bytes.subspan(i + 4);
+        if (bytes[i + 1] == app14 && content.size() >= name.size() &&
+            std::memcmp(content.data(), name.data(), name.size()) == 0) {
+            return true;
+        }
+        i += 2 + (std::size_t{bytes[i + 2]} << 8 | bytes[i + 3]);
+    }
+    return false;
+}
+
+/// Of shares of ink, or of what ink leaves, which Adobe's programs store.
+std::vector<std::uint8_t> rgbOf(const std::vector<std::uint8_t>& cmyk, bool isLeft) {
+    const auto left = [&](std::size_t i) { return isLeft ? cmyk[i] : 255 - cmyk[i]; };
     std::vector<std::uint8_t> rgb;
     rgb.reserve(cmyk.size() / 4 * 3);
     for (std::size_t i = 0; i < cmyk.size(); i += 4) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            rgb.push_back(static_cast<std::uint8_t>(cmyk[i + channel] * cmyk[i + 3] / 255));
+            rgb.push_back(static_cast<std::uint8_t>(left(i + channel) * left(i + 3) / 255));
         }
     }
     return rgb;
@@ -81,7 +103,7 @@ IntegerImage decodeJpeg(std::span<const std::uint8_t> bytes, const std::string& 
         fail(decoder, name);
     }
     if (layout.format == TJPF_CMYK) {
-        image.bytes = rgbOf(image.bytes);
+        image.bytes = rgbOf(image.bytes, hasAdobeMarker(bytes));
         image.channels = 3;
     }
     return image;

@@ -145,7 +145,7 @@ ByteImage decodeBytes(std::span<const std::uint8_t> bytes, const std::string& na
     if (!image.words.empty()) {
         image.bytes.resize(image.words.size());
         std::ranges::transform(image.words, image.bytes.begin(),
-                               [](std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); });
+                               [](std::uint16_t word) { return static_cast<std::uint8_t>((word + 128) / 257); });
     }
     return {image.width, image.height,
             image.channels == 4 ? std::move(image.bytes) : toRgba(image.bytes, image.channels)};

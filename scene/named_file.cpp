@@ -26,7 +26,7 @@ Found find(const fs::path& owner, std::string reference) {
         return {{}, "has a character that file names cannot have"};
     }
     std::ranges::replace(reference, '\\', '/');
-    const fs::path name = reference;
+    const fs::path name = fs::path(reference).lexically_normal(); // as in a uri: "a/.." is nothing, whatever a is
     if (reference.empty() || name.is_absolute()) {
         return {{}, reference.empty() ? "is empty" : "is not a path relative to the file that names it"};
     }

@@ -109,6 +109,7 @@ constexpr auto keys<Results> = std::tuple{Key{"suite", &Results::suite},
                                           Key{"commit", &Results::commit},
                                           Key{"created", &Results::created},
                                           Key{"scene", &Results::scene},
+                                          Key{"notes", &Results::notes},
                                           Key{"machine", &Results::machine},
                                           Key{"procedure", &Results::procedure},
                                           Key{"noiseFloors", &Results::noiseFloors},
@@ -211,9 +212,6 @@ requires(!std::is_null_pointer_v<std::remove_cvref_t<decltype(keys<Struct>)>>) v
                                                                                          Struct& result);
 void read(const Json& value, const std::string& field, Summary& result);
 
-template <typename Value> void read(const Json& value, const std::string& field, std::optional<Value>& result) {
-    read(value, field, result.emplace());
-}
 template <typename Value> void read(const Json& value, const std::string& field, std::vector<Named<Value>>& result) {
     if (!value.is_object()) {
         refuse(field, value, "an object");
@@ -230,6 +228,9 @@ template <typename Element> void read(const Json& value, const std::string& fiel
     for (std::size_t i = 0; i < value.size(); ++i) {
         read(value[i], field + "[" + std::to_string(i) + "]", result.emplace_back());
     }
+}
+template <typename Value> void read(const Json& value, const std::string& field, std::optional<Value>& result) {
+    read(value, field, result.emplace());
 }
 
 std::string describe(const Range& range) {

@@ -151,6 +151,7 @@ struct Results {
     std::string commit;  ///< of the sources it was built from; "unknown" outside a repository
     std::string created; ///< UTC, ISO 8601
     std::string scene;
+    std::optional<std::vector<std::string>> notes; ///< Scene::notes; absent in files of earlier versions
     Machine machine;
     Procedure procedure;
     std::vector<NoiseFloor> noiseFloors;

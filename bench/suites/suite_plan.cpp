@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace nacre::bench {
 namespace {
@@ -16,6 +17,16 @@ double targetDistance(const scene::Camera& camera) {
 constexpr double thesisStep = 2 * 1.92;
 
 } // namespace
+
+std::vector<std::string> notesOf(const Plan& plan) {
+    std::set<std::string> notes;
+    for (const Series& series : plan.series) {
+        for (const Configuration& configuration : series.configurations) {
+            notes.insert(configuration.view->scene->notes.begin(), configuration.view->scene->notes.end());
+        }
+    }
+    return {notes.begin(), notes.end()};
+}
 
 double pixelsPerMillimeter(const View& view, const Size& size) {
     const scene::Camera& camera = view.camera;

@@ -66,6 +66,9 @@ struct Plan {
     std::vector<Picture> pictures;
 };
 
+/// What of the files of its views was left out or assumed (Scene::notes), each sentence once.
+std::vector<std::string> notesOf(const Plan& plan);
+
 /// Pixels per millimetre at the camera's target.
 double pixelsPerMillimeter(const View& view, const Size& size);
 

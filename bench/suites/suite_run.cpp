@@ -95,6 +95,7 @@ Results runPlan(renderer::Device& device, const Plan& plan, const SuiteSettings&
                     .nacreVersion = NACRE_VERSION,
                     .commit = std::string(commit),
                     .scene = plan.scene,
+                    .notes = notesOf(plan),
                     .machine = describe(description)};
     for (std::size_t i = 0; i < plan.series.size(); ++i) {
         settings.secondsPerSeries = secondsFor(std::span(plan.series).subspan(i), suite.seconds - secondsSince(begin));

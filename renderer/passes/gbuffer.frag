@@ -24,7 +24,7 @@ float thicknessOf(SurfaceConstants surface) {
     float thickness = surface.lengths.x;
     if (thickness > 0.0 && hasTexture(thicknessSlot)) {
         // A small positive value keeps an authored zero apart from "none".
-        thickness = max(thickness * texture(thicknessTexture, inUv[thicknessSlot]).g, 1e-3);
+        thickness = max(thickness * texture(thicknessTexture, settled(inUv[thicknessSlot])).g, 1e-3);
     }
     return thickness;
 }
@@ -32,20 +32,20 @@ float thicknessOf(SurfaceConstants surface) {
 float scaleOf(SurfaceConstants surface) {
     float scale = surface.lengths.y;
     if (hasTexture(scaleSlot)) {
-        scale *= texture(scaleTexture, inUv[scaleSlot]).r;
+        scale *= texture(scaleTexture, settled(inUv[scaleSlot])).r;
     }
     return clamp(scale, leastScale, largestScale);
 }
 
 // Factor on the share of the light that comes through.
 float shareFactor() {
-    return hasTexture(transmissionSlot) ? texture(transmissionTexture, inUv[transmissionSlot]).a : 1.0;
+    return hasTexture(transmissionSlot) ? texture(transmissionTexture, settled(inUv[transmissionSlot])).a : 1.0;
 }
 
 // Of what comes through; negative: as the material has it.
 vec3 transmissionColor() {
     return hasTexture(transmissionColorSlot)
-        ? texture(transmissionColorTexture, inUv[transmissionColorSlot]).rgb
+        ? texture(transmissionColorTexture, settled(inUv[transmissionColorSlot])).rgb
         : vec3(-1.0);
 }
 

@@ -22,7 +22,7 @@ vec3 mappedNormal(SurfaceConstants surface, vec3 normal) {
     }
     tangent /= tangentLength;
     vec3 bitangent = cross(normal, tangent) * inTangent.w;
-    vec3 detail = texture(normalTexture, inUv[normalSlot]).xyz * 2.0 - 1.0;
+    vec3 detail = texture(normalTexture, settled(inUv[normalSlot])).xyz * 2.0 - 1.0;
     detail.xy *= surface.emission.w;
     return normalize(tangent * detail.x + bitangent * detail.y + normal * max(detail.z, 1e-3));
 }
@@ -33,7 +33,7 @@ Look lookOf(SurfaceConstants surface, vec3 color) {
     Look look;
     look.roughness = surface.parameters.y;
     if (hasTexture(metallicRoughnessSlot)) {
-        vec4 texel = texture(metallicRoughnessTexture, inUv[metallicRoughnessSlot]);
+        vec4 texel = texture(metallicRoughnessTexture, settled(inUv[metallicRoughnessSlot]));
         metallic *= texel.b;
         look.roughness *= texel.g;
     }
@@ -43,7 +43,7 @@ Look lookOf(SurfaceConstants surface, vec3 color) {
     look.f0 = mix(vec3(0.08 * surface.parameters.z), color, metallic);
     look.emission = surface.emission.rgb;
     if (hasTexture(emissionSlot)) {
-        look.emission *= texture(emissionTexture, inUv[emissionSlot]).rgb;
+        look.emission *= texture(emissionTexture, settled(inUv[emissionSlot])).rgb;
     }
     return look;
 }

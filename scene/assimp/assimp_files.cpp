@@ -1,8 +1,32 @@
 #include "scene/assimp/assimp_files.hpp"
 
+#include "nacre/files.hpp"
+#include "scene/assimp/assimp_text.hpp"
+
 #include <algorithm>
+#include <assimp/MemoryIOWrapper.h>
+#include <cctype>
 
 namespace nacre::scene {
+namespace {
+
+std::string extensionOf(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
+/// A stream that owns what it reads.
+class TextStream : public Assimp::MemoryIOStream {
+public:
+    explicit TextStream(std::vector<std::uint8_t> text)
+        : MemoryIOStream(text.data(), text.size()), text_(std::move(text)) {}
+
+private:
+    std::vector<std::uint8_t> text_; // whose bytes stay where they are when it is moved
+};
+
+} // namespace
 
 std::filesystem::path AssimpFiles::allowed(const char* file) const {
     if (file == model_) {
@@ -27,13 +51,38 @@ bool AssimpFiles::Exists(const char* file) const {
 
 Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
     const std::filesystem::path path = allowed(file);
+    if (path.empty() && extensionOf(file) == ".mtl") {
+        missingLibraries_.push_back(std::filesystem::path(file).filename().string());
+    }
     if (path.empty() || std::string_view(mode).find_first_of("wa+") != std::string_view::npos) {
         return nullptr;
     }
     if (path != model_) {
         inputs_.push_back(path.string());
     }
-    return Assimp::DefaultIOSystem::Open(path.c_str(), mode);
+    const std::string extension = extensionOf(path);
+    if (!isAssimpText(extension)) {
+        return Assimp::DefaultIOSystem::Open(path.c_str(), mode);
+    }
+    std::vector<std::uint8_t> text = readFile(path);
+    clearUp(text, extension);
+    if (extension == ".mtl") {
+        hasLibrary_ = true;
+        hasTextureOptions_ = hasTextureOptions_ || placesTextures(text);
+    }
+    return text.empty() ? nullptr : new TextStream(std::move(text));
+}
+
+std::vector<std::string> AssimpFiles::notes() const {
+    std::vector<std::string> notes;
+    if (!hasLibrary_ && !missingLibraries_.empty()) {
+        notes.push_back(model_.string() + ": names \"" + missingLibraries_.front() +
+                        "\", which is not there; its materials are left out");
+    }
+    if (hasTextureOptions_) {
+        notes.push_back(model_.string() + ": its materials scale or move textures (-s, -o), which is not read");
+    }
+    return notes;
 }
 
 } // namespace nacre::scene

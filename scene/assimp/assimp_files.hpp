@@ -17,6 +17,8 @@ public:
 
     /// What was opened, apart from the model.
     const std::vector<std::string>& inputs() const { return inputs_; }
+    /// What of the material libraries was left out, a sentence each.
+    std::vector<std::string> notes() const;
 
 private:
     /// The path to open, empty for none.
@@ -24,6 +26,9 @@ private:
 
     std::filesystem::path model_;
     std::vector<std::string> inputs_;
+    std::vector<std::string> missingLibraries_;
+    bool hasLibrary_ = false;
+    bool hasTextureOptions_ = false;
 };
 
 } // namespace nacre::scene

@@ -5,7 +5,7 @@
 #include "scene/assimp/assimp_axes.hpp"
 #include "scene/assimp/assimp_files.hpp"
 #include "scene/assimp/assimp_material.hpp"
-#include "scene/assimp/threemf_unit.hpp"
+#include "scene/assimp/threemf_facts.hpp"
 #include "scene/import.hpp"
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
@@ -62,6 +62,9 @@ public:
         }
         for (const aiCamera* camera : std::span(source_.mCameras, source_.mNumCameras)) {
             addCamera(*camera);
+        }
+        if (const std::string unread = materials_.unreadUses(); !unread.empty()) {
+            scene_.notes.push_back(name_ + ": its materials have textures that are not read: " + unread);
         }
         scene_.inputs = materials_.inputs();
     }
@@ -150,7 +153,7 @@ private:
         } else {
             makeSmoothNormals(mesh);
         }
-        mesh.surface = materials_.surface(source.mMaterialIndex);
+        mesh.surface = materials_.surface(source.mMaterialIndex, source.HasVertexColors(0));
         if (scene_.surfaces[mesh.surface].normalTexture != none) {
             makeTangents(mesh, {});
         }
@@ -161,7 +164,11 @@ private:
     /// By the scene's size in its own units, where the format does not say.
     void chooseUnit(double size) {
         if (extension_ == ".3mf") {
-            scene_.metersPerUnit = threemfMetersPerUnit(name_);
+            const ThreemfFacts facts = readThreemfFacts(name_);
+            scene_.metersPerUnit = facts.metersPerUnit;
+            if (facts.hasUnreadColors) {
+                scene_.notes.push_back(name_ + ": its colour groups and textures are not read");
+            }
             return;
         }
         constexpr std::array statesUnit{".fbx", ".dae", ".blend", ".ifc", ".gltf", ".glb"};
@@ -283,6 +290,7 @@ Scene importFile(const std::filesystem::path& file) {
     scene.name = file.stem().string();
     AssimpImporter(file, *source, scene).run();
     std::ranges::copy(files->inputs(), std::back_inserter(scene.inputs));
+    std::ranges::copy(files->notes(), std::back_inserter(scene.notes));
     return scene;
 }
 

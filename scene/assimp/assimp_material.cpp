@@ -118,6 +118,56 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initiali
     return none;
 }
 
+void AssimpMaterials::addEmission(const aiMaterial& material, Surface& surface) {
+    aiColor3D emission;
+    if (material.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == aiReturn_SUCCESS) {
+        const auto positive = [](float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1e6f) : 0.0f; };
+        surface.emission = {positive(emission.r), positive(emission.g), positive(emission.b)};
+    }
+    try {
+        surface.emissionTexture = texture(material, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE}, true);
+    } catch (const FileError& error) {
+        scene_.notes.push_back(std::string(error.what()) + "; it is left out");
+        surface.emission = glm::vec3(0); // which alone would light up what the texture leaves dark
+    }
+    // As beside textures of colour, many exporters write black.
+    if (surface.emissionTexture != none && surface.emission == glm::vec3(0)) {
+        surface.emission = glm::vec3(1);
+    }
+}
+
+void AssimpMaterials::collectUnread(const aiMaterial& material) {
+    struct Use {
+        aiTextureType type;
+        const char* name;
+    };
+    constexpr std::array uses{Use{aiTextureType_SPECULAR, "specular"},
+                              Use{aiTextureType_HEIGHT, "height"},
+                              Use{aiTextureType_SHININESS, "shininess"},
+                              Use{aiTextureType_DISPLACEMENT, "displacement"},
+                              Use{aiTextureType_LIGHTMAP, "light"},
+                              Use{aiTextureType_REFLECTION, "reflection"},
+                              Use{aiTextureType_METALNESS, "metalness"},
+                              Use{aiTextureType_DIFFUSE_ROUGHNESS, "roughness"},
+                              Use{aiTextureType_AMBIENT_OCCLUSION, "ambient occlusion"},
+                              Use{aiTextureType_SHEEN, "sheen"},
+                              Use{aiTextureType_CLEARCOAT, "clearcoat"},
+                              Use{aiTextureType_TRANSMISSION, "transmission"}};
+    for (const Use& use : uses) {
+        if (material.GetTextureCount(use.type) > 0) {
+            unreadUses_.insert(use.name);
+        }
+    }
+}
+
+std::string AssimpMaterials::unreadUses() const {
+    std::string list;
+    for (const std::string& use : unreadUses_) {
+        list += (list.empty() ? "" : ", ") + use;
+    }
+    return list;
+}
+
 void AssimpMaterials::addOpacity(const aiMaterial& material, Surface& surface) {
     const std::uint32_t opacity = texture(material, {aiTextureType_OPACITY}, false);
     if (opacity == none || surface.baseColorTexture == none) {
@@ -143,8 +193,9 @@ void AssimpMaterials::addOpacity(const aiMaterial& material, Surface& surface) {
     scene_.textures.push_back(std::move(masked));
 }
 
-std::uint32_t AssimpMaterials::surface(unsigned index) {
-    const auto [entry, isNew] = surfaces_.try_emplace(index, static_cast<std::uint32_t>(scene_.surfaces.size()));
+std::uint32_t AssimpMaterials::surface(unsigned index, bool hasVertexColors) {
+    const auto [entry, isNew] =
+        surfaces_.try_emplace({index, hasVertexColors}, static_cast<std::uint32_t>(scene_.surfaces.size()));
     if (!isNew) {
         return entry->second;
     }
@@ -174,9 +225,11 @@ std::uint32_t AssimpMaterials::surface(unsigned index) {
         }
         int twoSided = 0;
         surface.doubleSided = material.Get(AI_MATKEY_TWOSIDED, twoSided) == aiReturn_SUCCESS && twoSided != 0;
-        aiColor3D emission;
-        if (material.Get(AI_MATKEY_COLOR_EMISSIVE, emission) == aiReturn_SUCCESS) {
-            surface.emission = {clamp01(emission.r), clamp01(emission.g), clamp01(emission.b)};
+        addEmission(material, surface);
+        collectUnread(material);
+        // What Assimp gives a mesh without a material is grey, and would darken colours that are all the mesh has.
+        if (hasVertexColors && surface.name == AI_DEFAULT_MATERIAL_NAME) {
+            surface.baseColor = glm::vec4(1);
         }
         addOpacity(material, surface);
         // Many exporters write 0 for 1.

@@ -99,6 +99,17 @@ std::vector<std::uint32_t> readSparseIndices(const GltfFile& file, const tinyglt
     return indices;
 }
 
+/// `size` is that of an element.
+Elements sparseValues(const GltfFile& file, const tinygltf::Accessor& accessor, std::uint64_t count, std::uint64_t size,
+                      const std::string& field) {
+    const auto& values = accessor.sparse.values;
+    if (values.byteOffset < 0) {
+        failGltf(file, field + ".sparse.values.byteOffset is " + std::to_string(values.byteOffset));
+    }
+    return locate(file, values.bufferView, static_cast<std::uint64_t>(values.byteOffset), count, size,
+                  field + ".sparse.values");
+}
+
 void checkCount(const GltfFile& file, const tinygltf::Accessor& accessor, const std::string& name) {
     const std::size_t most = accessor.bufferView >= 0 ? maxGltfElements : file.mostWithoutView;
     if (accessor.count > most) {
@@ -181,12 +192,7 @@ std::vector<float> readFloats(const GltfFile& file, int accessor, int components
     }
     if (source.sparse.isSparse) {
         const std::vector<std::uint32_t> indices = readSparseIndices(file, source, name);
-        const auto& values = source.sparse.values;
-        if (values.byteOffset < 0) {
-            failGltf(file, name + ".sparse.values.byteOffset is " + std::to_string(values.byteOffset));
-        }
-        const Elements elements = locate(file, values.bufferView, static_cast<std::uint64_t>(values.byteOffset),
-                                         indices.size(), size * width, name + ".sparse.values");
+        const Elements elements = sparseValues(file, source, indices.size(), size * width, name);
         for (std::uint64_t i = 0; i < indices.size(); ++i) {
             copy(elements, i, indices[i]);
         }
@@ -204,11 +210,18 @@ std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor, const
         failGltf(file, name + " holds " + field + " and must be of unsigned integers");
     }
     checkCount(file, source, name);
-    const Elements elements =
-        locate(file, source.bufferView, source.byteOffset, source.count, componentBytes(file, type, name), name);
+    const std::uint64_t size = componentBytes(file, type, name);
+    const Elements elements = locate(file, source.bufferView, source.byteOffset, source.count, size, name);
     std::vector<std::uint32_t> result(source.count);
     for (std::uint64_t i = 0; i < source.count; ++i) {
         result[i] = loadIndex(elements.first + i * elements.stride, type);
+    }
+    if (source.sparse.isSparse) {
+        const std::vector<std::uint32_t> places = readSparseIndices(file, source, name);
+        const Elements values = sparseValues(file, source, places.size(), size, name);
+        for (std::uint64_t i = 0; i < places.size(); ++i) {
+            result[places[i]] = loadIndex(values.first + i * values.stride, type);
+        }
     }
     return result;
 }

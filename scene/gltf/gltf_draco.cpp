@@ -10,14 +10,15 @@ namespace {
 
 constexpr const char* dracoExtension = "KHR_draco_mesh_compression";
 
-GltfPrimitive::Attribute readAttribute(const GltfFile& file, const draco::Mesh& mesh,
-                                       const draco::PointAttribute& attribute, const std::string& field) {
+GltfPrimitive::Attribute decodeAttribute(const GltfFile& file, const draco::Mesh& mesh,
+                                         const draco::PointAttribute& attribute, const std::string& field) {
     const auto width = static_cast<std::size_t>(attribute.num_components());
     if (width == 0 || width > 4) {
         failGltf(file, field + " has " + std::to_string(width) + " components, must have 1 to 4");
     }
     GltfPrimitive::Attribute result;
     result.components = static_cast<int>(width);
+    file.budget->charge(mesh.num_points() * width * sizeof(float)); // many attributes may share the compressed one
     result.values.resize(mesh.num_points() * width);
     for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
         const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(point));
@@ -53,7 +54,8 @@ bool isDraco(const tinygltf::Primitive& primitive) {
     return primitive.extensions.contains(dracoExtension);
 }
 
-GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field) {
+GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field,
+                          bool isSkinned) {
     const GltfObject extension(file, source.extensions, dracoExtension, field);
     const std::string name = field + ".extensions." + dracoExtension;
     const auto bytes = viewBytes(file, extension.index("bufferView"), name + ".bufferView");
@@ -68,10 +70,12 @@ GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& sourc
     result.field = file.path.string() + ": " + field;
     result.vertexCount = mesh.num_points();
     for (const auto& [semantic, accessor] : source.attributes) {
+        if (!isReadAttribute(semantic, isSkinned)) {
+            continue;
+        }
         const int id = extension.object("attributes").index(semantic.c_str());
         if (id < 0) { // stays uncompressed
-            const int width = componentCount(file, accessor, field + ".attributes." + semantic);
-            result.attributes[semantic] = {width, readFloats(file, accessor, width, field + ".attributes." + semantic)};
+            result.attributes[semantic] = readAttribute(file, accessor, semantic, field);
             continue;
         }
         const std::string attributeName = name + ".attributes." + semantic;
@@ -79,7 +83,7 @@ GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& sourc
         if (attribute == nullptr) {
             failGltf(file, attributeName + " is " + std::to_string(id) + ", which the compressed data do not have");
         }
-        result.attributes[semantic] = readAttribute(file, mesh, *attribute, attributeName);
+        result.attributes[semantic] = decodeAttribute(file, mesh, *attribute, attributeName);
         const auto& declared = elementOf(file, file.model.accessors, accessor, field + ".attributes." + semantic);
         const int type = declared.componentType;
         if (declared.normalized && type != TINYGLTF_COMPONENT_TYPE_FLOAT &&

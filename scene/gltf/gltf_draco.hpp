@@ -14,6 +14,7 @@ void dropDracoIndices(nlohmann::json& document);
 bool isDraco(const tinygltf::Primitive& primitive);
 
 /// Decodes a compressed primitive; throws SceneError when the data are damaged.
-GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field);
+GltfPrimitive decodeDraco(const GltfFile& file, const tinygltf::Primitive& source, const std::string& field,
+                          bool isSkinned);
 
 } // namespace nacre::scene

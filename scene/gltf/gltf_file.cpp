@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <strings.h>
 
 namespace nacre::scene {
 namespace {
@@ -233,6 +234,26 @@ void completeSkins(Json& document) {
     }
 }
 
+/// And where a channel moves what an extension names.
+void completeChannels(Json& document) {
+    const auto animations = document.find("animations");
+    if (animations == document.end() || !animations->is_array()) {
+        return;
+    }
+    for (Json& animation : *animations) {
+        const auto channels = animation.is_object() ? animation.find("channels") : animation.end();
+        if (!animation.is_object() || channels == animation.end() || !channels->is_array()) {
+            continue;
+        }
+        for (Json& channel : *channels) {
+            if (channel.is_object() && channel.contains("target") && channel["target"].is_object() &&
+                !channel["target"].contains("node")) {
+                channel["target"]["node"] = -1;
+            }
+        }
+    }
+}
+
 void parseModel(GltfFile& file, const Json& document) {
     const std::string text = document.dump();
     std::string error;
@@ -247,6 +268,11 @@ void parseModel(GltfFile& file, const Json& document) {
     if (!parsed || !error.empty()) {
         failGltf(file, "is not valid glTF: " + error.substr(0, error.find_last_not_of(". \n", error.find('\n')) + 1));
     }
+}
+
+/// Whether a text begins so, whatever the case of its letters.
+bool startsLike(std::string_view text, std::string_view beginning) {
+    return text.size() >= beginning.size() && ::strncasecmp(text.data(), beginning.data(), beginning.size()) == 0;
 }
 
 std::string decodePercents(const std::string& uri) {
@@ -292,24 +318,35 @@ GltfKind gltfKind(std::span<const std::uint8_t> bytes) {
 }
 
 bool isDataUri(const std::string& uri) {
-    return uri.starts_with("data:");
+    return startsLike(uri, "data:");
 }
 
+// RFC 2397: percent-encoded, after ";base64" that, too. The media type does not matter here.
 Bytes decodeDataUri(const GltfFile& file, const std::string& uri, const std::string& field) {
+    constexpr std::string_view base64 = ";base64";
     const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) {
+        failGltf(file, field + " " + shorten(uri) + " is a data uri without a comma");
+    }
+    const std::string content = decodePercents(uri.substr(comma + 1));
+    if (comma < base64.size() || !startsLike(std::string_view(uri).substr(comma - base64.size()), base64)) {
+        return {content.begin(), content.end()};
+    }
     Bytes bytes;
     std::string mimeType;
-    // tinygltf knows a list of media types; the one that is given does not matter here.
-    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64") ||
-        !tinygltf::DecodeDataURI(&bytes, mimeType, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0,
-                                 false)) {
+    // tinygltf knows a list of media types, of which this is one.
+    if (!tinygltf::DecodeDataURI(&bytes, mimeType, "data:application/octet-stream;base64," + content, 0, false)) {
         failGltf(file, field + " " + shorten(uri) + " is not a base64 data uri");
     }
     return bytes;
 }
 
 std::span<const std::uint8_t> readUri(const GltfFile& file, const std::string& uri, const std::string& field) {
-    return file.named->read(decodePercents(uri), file.path.string() + ": " + field);
+    // Some exporters write names as they are, percent signs included.
+    const std::string decoded = decodePercents(uri);
+    const bool isPlain =
+        decoded != uri && tryNamedFile(file.path, decoded).empty() && !tryNamedFile(file.path, uri).empty();
+    return file.named->read(isPlain ? uri : decoded, file.path.string() + ": " + field);
 }
 
 GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, GltfAnimations animations) {
@@ -340,6 +377,7 @@ GltfFile openGltf(const std::filesystem::path& path, std::span<const std::uint8_
     keepWideIntegers(document);
     dropDracoIndices(document);
     completeSkins(document);
+    completeChannels(document);
     parseModel(file, document);
     decodeMeshoptViews(file);
     file.mostWithoutView = mostGltfElementsWithoutView(file);

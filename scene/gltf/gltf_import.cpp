@@ -1,6 +1,7 @@
 #include "scene/gltf/gltf_import.hpp"
 
 #include "scene/gltf/gltf_animation.hpp"
+#include "scene/gltf/gltf_deformation.hpp"
 #include "scene/gltf/gltf_instancing.hpp"
 #include "scene/gltf/gltf_light.hpp"
 #include "scene/gltf/gltf_material.hpp"
@@ -217,7 +218,7 @@ private:
 
     std::uint32_t buildMesh(const tinygltf::Node& source, std::size_t primitive, std::span<const double> weights) {
         const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(source.mesh)];
-        std::optional<GltfPrimitive> read = readPrimitive(file_, source.mesh, primitive);
+        std::optional<GltfPrimitive> read = readPrimitive(file_, source.mesh, primitive, source.skin >= 0);
         if (!read) {
             ++skipped_;
             return none;

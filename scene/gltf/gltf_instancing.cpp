@@ -29,6 +29,19 @@ Attribute readAttribute(const GltfFile& file, const GltfObject& attributes, cons
     return {readFloats(file, accessor, static_cast<int>(components), field + "." + name), components};
 }
 
+/// How many elements the other attributes have: instances that differ in nothing that is drawn.
+std::size_t countOfCustom(const GltfFile& file, const tinygltf::Node& node, const std::string& field) {
+    const tinygltf::Value& attributes = node.extensions.at(instancingExtension).Get("attributes");
+    const std::vector<std::string> keys = attributes.IsObject() ? attributes.Keys() : std::vector<std::string>();
+    if (keys.empty()) {
+        return 0;
+    }
+    const tinygltf::Value& accessor = attributes.Get(keys.front());
+    return elementOf(file, file.model.accessors, accessor.IsInt() ? accessor.GetNumberAsInt() : -1,
+                     field + "." + keys.front())
+        .count;
+}
+
 glm::quat rotationOf(const Attribute& rotations, std::size_t i) {
     if (rotations.values.empty()) {
         return {1, 0, 0, 0};
@@ -50,13 +63,14 @@ std::vector<glm::mat4> readInstances(const GltfFile& file, const tinygltf::Node&
     const Attribute translations = readAttribute(file, attributes, "TRANSLATION", 3, field);
     const Attribute rotations = readAttribute(file, attributes, "ROTATION", 4, field);
     const Attribute scales = readAttribute(file, attributes, "SCALE", 3, field);
-    const std::size_t count = std::max({translations.count(), rotations.count(), scales.count()});
+    std::size_t count = std::max({translations.count(), rotations.count(), scales.count()});
     for (const Attribute* attribute : {&translations, &rotations, &scales}) {
         if (!attribute->values.empty() && attribute->count() != count) {
             failGltf(file, field + " have " + std::to_string(attribute->count()) + " and " + std::to_string(count) +
                                " elements, must have as many");
         }
     }
+    count = count > 0 ? count : countOfCustom(file, node, field);
     if (count > maxInstances) {
         failGltf(file, "places more than " + std::to_string(maxInstances) + " meshes");
     }

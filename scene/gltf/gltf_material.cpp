@@ -113,6 +113,10 @@ std::uint32_t GltfMaterials::convert(const tinygltf::Material& source, const std
             ? static_cast<float>(checkRange(file_, source.alphaCutoff, 0, 1e3, field + ".alphaCutoff"))
             : 0.5f;
     readSubsurface(source, extensions, field, surface);
+    if (extensions.clearTransmission > 0 && surface.material == none) {
+        scene_.notes.push_back(file_.path.string() + ": " + field +
+                               ".extensions.KHR_materials_transmission is not drawn");
+    }
     scene_.surfaces.push_back(std::move(surface));
     texCoords_.push_back(texCoords);
     return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);

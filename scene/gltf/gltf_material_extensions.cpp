@@ -49,7 +49,8 @@ void readDiffuseTransmission(const GltfObject& extension, GltfMaterialExtensions
 void readTransmission(const GltfObject& extension, GltfMaterialExtensions& result) {
     GltfMedium& medium = result.medium;
     medium.transmits = true;
-    medium.transmission = std::max(medium.transmission, extension.number("transmissionFactor", 0, 0, 1));
+    result.clearTransmission = extension.number("transmissionFactor", 0, 0, 1);
+    medium.transmission = std::max(medium.transmission, result.clearTransmission);
 }
 
 /// Comes after KHR_materials_volume: only volumes scatter.

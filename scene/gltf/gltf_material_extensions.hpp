@@ -23,7 +23,8 @@ struct GltfMaterialExtensions {
     double specularFactor = 1;   ///< [0, 1] KHR_materials_specular
     double emissiveStrength = 1; ///< KHR_materials_emissive_strength
     std::optional<GltfSpecularGlossiness> specularGlossiness;
-    GltfMedium medium; ///< KHR_materials_volume and those that fill it
+    GltfMedium medium;            ///< KHR_materials_volume and those that fill it
+    double clearTransmission = 0; ///< [0, 1] KHR_materials_transmission
     GltfTextureUse thicknessTexture;
     GltfTextureUse multiscatterColorTexture;
     GltfTextureUse diffuseTransmissionTexture; ///< in its alpha

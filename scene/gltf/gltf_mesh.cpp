@@ -2,29 +2,13 @@
 
 #include "scene/gltf/gltf_draco.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <charconv>
 #include <numeric>
 
 namespace nacre::scene {
 namespace {
-
-std::string fieldOf(int mesh, std::size_t primitive) {
-    return "meshes[" + std::to_string(mesh) + "].primitives[" + std::to_string(primitive) + "]";
-}
-
-const tinygltf::Primitive& primitiveOf(const GltfFile& file, int mesh, std::size_t primitive) {
-    return file.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
-}
-
-/// The attributes that are read; others (a second set of colours, custom ones) are not looked at. Of sets of texture
-/// coordinates there are at most ten, more than anybody has.
-bool isRead(const std::string& semantic) {
-    constexpr std::string_view set = "TEXCOORD_";
-    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" || semantic == "COLOR_0" ||
-           semantic == "JOINTS_0" || semantic == "WEIGHTS_0" ||
-           (semantic.starts_with(set) && semantic.size() == set.size() + 1);
-}
 
 void checkCounts(const GltfPrimitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
@@ -38,16 +22,6 @@ void checkCounts(const GltfPrimitive& primitive) {
                              " elements, but POSITION has " + std::to_string(primitive.vertexCount));
         }
     }
-}
-
-glm::vec3 vec3At(const std::vector<float>& values, std::size_t i) {
-    return {values[i * 3], values[i * 3 + 1], values[i * 3 + 2]};
-}
-
-void setVec3(std::vector<float>& values, std::size_t i, const glm::vec3& v) {
-    values[i * 3] = v.x;
-    values[i * 3 + 1] = v.y;
-    values[i * 3 + 2] = v.z;
 }
 
 /// The attribute COLOR_0, RGB or RGBA; empty where there is none.
@@ -70,6 +44,32 @@ std::vector<glm::vec4> colorsOf(const GltfPrimitive& source) {
 
 } // namespace
 
+std::string primitiveField(int mesh, std::size_t primitive) {
+    return "meshes[" + std::to_string(mesh) + "].primitives[" + std::to_string(primitive) + "]";
+}
+
+std::optional<std::size_t> setNumber(std::string_view semantic, std::string_view prefix) {
+    if (!semantic.starts_with(prefix)) {
+        return std::nullopt;
+    }
+    semantic.remove_prefix(prefix.size());
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(semantic.data(), semantic.data() + semantic.size(), number);
+    const bool isCanonical = error == std::errc() && end == semantic.data() + semantic.size() &&
+                             (semantic.size() == 1 || semantic.front() != '0');
+    return isCanonical ? std::optional(number) : std::nullopt;
+}
+
+bool isSkinAttribute(std::string_view semantic) {
+    return setNumber(semantic, jointsPrefix) || setNumber(semantic, weightsPrefix);
+}
+
+bool isReadAttribute(std::string_view semantic, bool isSkinned) {
+    constexpr std::string_view set = "TEXCOORD_";
+    return semantic == "POSITION" || semantic == "NORMAL" || semantic == "TANGENT" || semantic == "COLOR_0" ||
+           (isSkinned && isSkinAttribute(semantic)) || (semantic.starts_with(set) && semantic.size() == set.size() + 1);
+}
+
 std::vector<float> GltfPrimitive::attribute(const std::string& name, int components) const {
     const auto found = attributes.find(name);
     if (found == attributes.end()) {
@@ -82,9 +82,21 @@ std::vector<float> GltfPrimitive::attribute(const std::string& name, int compone
     return found->second.values;
 }
 
-std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::size_t primitive) {
-    const tinygltf::Primitive& source = primitiveOf(file, mesh, primitive);
-    const std::string field = fieldOf(mesh, primitive);
+GltfPrimitive::Attribute readAttribute(const GltfFile& file, int accessor, const std::string& semantic,
+                                       const std::string& field) {
+    const std::string name = field + ".attributes." + semantic;
+    GltfPrimitive::Attribute result;
+    result.components = componentCount(file, accessor, name);
+    result.values = readFloats(file, accessor, result.components, name);
+    if (isSkinAttribute(semantic)) { // any number of sets may share an accessor
+        file.budget->charge(result.values.size() * sizeof(result.values[0]));
+    }
+    return result;
+}
+
+std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::size_t primitive, bool isSkinned) {
+    const tinygltf::Primitive& source = file.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
+    const std::string field = primitiveField(mesh, primitive);
     if (source.mode < 0 || source.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         failGltf(file, field + ".mode is " + std::to_string(source.mode) + ", must be 0 to 6");
     }
@@ -92,17 +104,15 @@ std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::
         return std::nullopt;
     }
     if (isDraco(source)) {
-        GltfPrimitive result = decodeDraco(file, source, field);
+        GltfPrimitive result = decodeDraco(file, source, field, isSkinned);
         checkCounts(result);
         return result;
     }
     GltfPrimitive result;
     result.field = file.path.string() + ": " + field;
     for (const auto& [semantic, accessor] : source.attributes) {
-        if (isRead(semantic)) {
-            const std::string name = field + ".attributes." + semantic;
-            const int width = componentCount(file, accessor, name);
-            result.attributes[semantic] = {width, readFloats(file, accessor, width, name)};
+        if (isReadAttribute(semantic, isSkinned)) {
+            result.attributes[semantic] = readAttribute(file, accessor, semantic, field);
         }
     }
     result.vertexCount = result.attribute("POSITION", 3).size() / 3;
@@ -114,80 +124,6 @@ std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::
     }
     result.indices = triangleList(static_cast<PrimitiveMode>(source.mode), indices);
     return result;
-}
-
-void applyMorphTargets(const GltfFile& file, int mesh, std::size_t primitive, std::span<const double> weights,
-                       GltfPrimitive& target) {
-    const tinygltf::Primitive& source = primitiveOf(file, mesh, primitive);
-    for (std::size_t i = 0; i < std::min(weights.size(), source.targets.size()); ++i) {
-        for (const char* semantic : {"POSITION", "NORMAL"}) {
-            const auto found = source.targets[i].find(semantic);
-            const auto attribute = target.attributes.find(semantic);
-            if (weights[i] == 0 || found == source.targets[i].end() || attribute == target.attributes.end()) {
-                continue;
-            }
-            const std::string field = fieldOf(mesh, primitive) + ".targets[" + std::to_string(i) + "]." + semantic;
-            const std::vector<float> offsets = readFloats(file, found->second, 3, field);
-            file.budget->charge(offsets.size() * sizeof(offsets[0]));
-            if (offsets.size() != attribute->second.values.size()) {
-                failGltf(file, field + " has another count than the primitive");
-            }
-            for (std::size_t k = 0; k < offsets.size(); ++k) {
-                attribute->second.values[k] += static_cast<float>(weights[i]) * offsets[k];
-            }
-        }
-    }
-}
-
-void applySkin(const GltfFile& file, int skin, std::span<const glm::mat4> nodeTransforms, GltfPrimitive& target) {
-    const tinygltf::Skin& source = elementOf(file, file.model.skins, skin, "skin");
-    const std::string field = "skins[" + std::to_string(skin) + "]";
-    const std::vector<float> joints = target.attribute("JOINTS_0", 4);
-    const std::vector<float> weights = target.attribute("WEIGHTS_0", 4);
-    if (joints.empty() || weights.empty()) {
-        return;
-    }
-    std::vector<float> inverseBind;
-    if (source.inverseBindMatrices >= 0) {
-        inverseBind = readFloats(file, source.inverseBindMatrices, 16, field + ".inverseBindMatrices");
-        if (inverseBind.size() < source.joints.size() * 16) {
-            failGltf(file, field + ".inverseBindMatrices has fewer matrices than there are joints");
-        }
-    }
-    std::vector<glm::mat4> matrices(source.joints.size());
-    file.budget->charge(2 * matrices.size() * sizeof(matrices[0]));
-    for (std::size_t i = 0; i < matrices.size(); ++i) {
-        elementOf(file, file.model.nodes, source.joints[i], field + ".joints[" + std::to_string(i) + "]");
-        matrices[i] = nodeTransforms[static_cast<std::size_t>(source.joints[i])];
-        if (!inverseBind.empty()) {
-            glm::mat4 inverse;
-            std::copy_n(&inverseBind[i * 16], 16, &inverse[0][0]);
-            matrices[i] *= inverse;
-        }
-    }
-    auto& positions = target.attributes["POSITION"].values;
-    const bool hasNormals = target.has("NORMAL");
-    for (std::size_t i = 0; i < target.vertexCount; ++i) {
-        glm::mat4 matrix(0);
-        float total = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const float joint = joints[i * 4 + k];
-            if (!(joint >= 0 && joint < static_cast<float>(matrices.size()))) {
-                throw SceneError(target.field + ".attributes.JOINTS_0 names a joint that " + field + " does not have");
-            }
-            matrix += matrices[static_cast<std::size_t>(joint)] * weights[i * 4 + k];
-            total += weights[i * 4 + k];
-        }
-        if (!(total > 0)) {
-            continue;
-        }
-        matrix /= total;
-        setVec3(positions, i, glm::vec3(matrix * glm::vec4(vec3At(positions, i), 1)));
-        if (hasNormals) {
-            auto& normals = target.attributes["NORMAL"].values;
-            setVec3(normals, i, glm::mat3(matrix) * vec3At(normals, i));
-        }
-    }
 }
 
 Mesh makeMesh(const GltfPrimitive& source, const std::array<int, 2>& texCoords, bool needsTangents,
@@ -203,9 +139,9 @@ Mesh makeMesh(const GltfPrimitive& source, const std::array<int, 2>& texCoords, 
     mesh.vertices.resize(source.vertexCount);
     for (std::size_t i = 0; i < source.vertexCount; ++i) {
         Vertex& vertex = mesh.vertices[i];
-        vertex.position = vec3At(positions, i);
+        vertex.position = glm::make_vec3(&positions[i * 3]);
         if (!normals.empty()) {
-            vertex.normal = vec3At(normals, i);
+            vertex.normal = glm::make_vec3(&normals[i * 3]);
         }
         if (!tangents.empty()) {
             vertex.tangent = {tangents[i * 4], tangents[i * 4 + 1], tangents[i * 4 + 2], tangents[i * 4 + 3]};

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <string_view>
 
 namespace nacre::scene {
 
@@ -24,15 +25,29 @@ struct GltfPrimitive {
     std::string field; ///< "FILE: meshes[0].primitives[0]"
 };
 
+inline constexpr std::string_view jointsPrefix = "JOINTS_";
+inline constexpr std::string_view weightsPrefix = "WEIGHTS_";
+
+/// "meshes[0].primitives[0]"
+std::string primitiveField(int mesh, std::size_t primitive);
+
+/// The n of a semantic like JOINTS_n; nothing where it does not begin so, or n is no plain number.
+std::optional<std::size_t> setNumber(std::string_view semantic, std::string_view prefix);
+
+/// JOINTS_n or WEIGHTS_n.
+bool isSkinAttribute(std::string_view semantic);
+
+/// Whether an attribute is read; others (a second set of colours, custom ones) are not looked at. Of sets of texture
+/// coordinates there are at most ten, more than anybody has; sets of joints and weights, of which there may be any
+/// number, are read for what has a skin.
+bool isReadAttribute(std::string_view semantic, bool isSkinned);
+
+/// An uncompressed attribute of the primitive that `field` names.
+GltfPrimitive::Attribute readAttribute(const GltfFile& file, int accessor, const std::string& semantic,
+                                       const std::string& field);
+
 /// Reads a primitive, Draco-compressed or not; nothing for points and lines.
-std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::size_t primitive);
-
-/// Adds the morph targets with the given weights to positions and normals.
-void applyMorphTargets(const GltfFile& file, int mesh, std::size_t primitive, std::span<const double> weights,
-                       GltfPrimitive& target);
-
-/// Moves positions and normals by the joints of a skin, whose nodes are at `nodeTransforms`.
-void applySkin(const GltfFile& file, int skin, std::span<const glm::mat4> nodeTransforms, GltfPrimitive& target);
+std::optional<GltfPrimitive> readPrimitive(const GltfFile& file, int mesh, std::size_t primitive, bool isSkinned);
 
 /// The mesh: checked, with normals, and tangents when `needsTangents`; texture coordinates from the sets
 /// TEXCOORD_n that are asked for.

@@ -1,13 +1,12 @@
 #include "scene/materialx/materialx_file.hpp"
 
 #include "core/files/open_pbr.hpp"
-#include "image/color.hpp"
 #include "scene/json_text.hpp"
+#include "scene/materialx/materialx_document.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <pugixml.hpp>
 #include <sstream>
 #include <string_view>
 
@@ -55,12 +54,10 @@ pugi::xml_node named(const Nodes& nodes, std::string_view name) {
 /// A shader node, whose inputs are asked for by name.
 class Shader {
 public:
-    Shader(const Nodes& nodes, const pugi::xml_node& node, std::string file, MaterialXImport& result)
-        : nodes_(nodes),
-          node_(node),
+    Shader(const pugi::xml_node& node, std::string file, MaterialXImport& result)
+        : node_(node),
           file_(std::move(file)),
           field_(std::string(node.name()) + " " + shorten(node.attribute("name").value())),
-          colorSpace_(node.root().child("materialx").attribute("colorspace").value()),
           result_(result) {}
 
     void read(const char* input, double& value, const Range& range = unitRange) {
@@ -91,12 +88,10 @@ public:
             return;
         }
         value = numbers<3>(input, source, unitRange);
-        const pugi::xml_attribute own = source.attribute("colorspace");
-        const std::string_view space = own ? std::string_view(own.value()) : colorSpace_;
-        if (space == "srgb_texture") {
-            std::ranges::transform(value, value.begin(),
-                                   [](double v) { return double{decodeSrgb(static_cast<float>(v))}; });
-        } else if (!space.empty() && space != "lin_rec709" && space != "none") {
+        const std::string_view space = colorSpaceOf(source);
+        if (const std::optional<Rgb> linear = toLinearRec709(value, space)) {
+            value = *linear;
+        } else {
             note(std::string(input) + " is in the colour space " + shorten(std::string(space)) +
                  ", and taken for linear Rec.709");
         }
@@ -129,22 +124,14 @@ public:
     [[noreturn]] void fail(const std::string& what) const { throw SceneError(file_ + ": " + field_ + ": " + what); }
 
 private:
-    /// Where an input's value is: in itself or in the constant it is connected to; nothing where it has its default.
+    /// Where an input's value is; nothing where it has its default.
     pugi::xml_node sourceOf(const char* name) {
         const pugi::xml_node input = node_.find_child_by_attribute("input", "name", name);
-        if (!input || input.attribute("value")) {
-            return input;
+        const pugi::xml_node value = valueOf(input);
+        if (input && !value) {
+            note(std::string(name) + " is computed by nodes, which are not read; it has its default");
         }
-        const std::string_view target = input.attribute("nodename").value();
-        const pugi::xml_node constant = target.empty() ? pugi::xml_node() : named(nodes_, target);
-        if (std::string_view(constant.name()) == "constant") {
-            if (const pugi::xml_node value = constant.find_child_by_attribute("input", "name", "value");
-                value.attribute("value")) {
-                return value;
-            }
-        }
-        note(std::string(name) + " is computed by nodes, which are not read; it has its default");
-        return {};
+        return value;
     }
 
     template <std::size_t count>
@@ -157,6 +144,7 @@ private:
         };
         for (std::size_t i = 0; i < count; ++i) {
             skip(i == 0 ? " \t\r\n" : " \t\r\n,");
+            rest.remove_prefix(rest.starts_with('+') && !rest.starts_with("+-") ? 1 : 0);
             const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), values[i]);
             if (error != std::errc() || !(values[i] >= range.low && values[i] <= range.high)) {
                 refuse(input, text, expected(count, range).c_str());
@@ -181,11 +169,9 @@ private:
         }
     }
 
-    const Nodes& nodes_;
     pugi::xml_node node_;
     std::string file_;
     std::string field_;
-    std::string_view colorSpace_;
     MaterialXImport& result_;
 };
 
@@ -285,24 +271,10 @@ pugi::xml_node chooseShader(const Nodes& nodes, const std::string& name, const s
 
 MaterialXImport importMaterialX(std::span<const std::uint8_t> bytes, const std::filesystem::path& file,
                                 const std::string& name, std::optional<double> metersPerUnit) {
-    pugi::xml_document document;
-    // Without document types there are no entities of a document's own: nothing expands, nothing is fetched.
-    const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
-    if (!parsed) {
-        throw SceneError(file.string() + ": is not valid XML: " + parsed.description() + " at byte " +
-                         std::to_string(parsed.offset));
-    }
-    const pugi::xml_node root = document.child("materialx");
-    if (!root) {
-        throw SceneError(file.string() + ": is not a MaterialX document: it has no element materialx");
-    }
-    const Nodes nodes = nodesOf(root);
-    const pugi::xml_node node = chooseShader(nodes, name, file.string());
     MaterialXImport result;
-    if (root.child("xi:include")) {
-        result.notes.push_back(file.string() + ": includes other documents, which are not read");
-    }
-    Shader shader(nodes, node, file.string(), result);
+    const pugi::xml_document document = parseMaterialX(bytes, file, result.notes, result.inputs);
+    const pugi::xml_node node = chooseShader(nodesOf(document.child("materialx")), name, file.string());
+    Shader shader(node, file.string(), result);
     const OpenPbr surface = kindOf(node)->read(shader, metersPerUnit);
     if (surface.subsurfaceWeight == 0) {
         shader.fail("has a subsurface weight of 0: no light travels under the surface");

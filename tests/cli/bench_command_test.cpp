@@ -145,7 +145,8 @@ TEST_F(BenchTest, LeavesNothingWhenItFails) {
 }
 
 TEST_F(BenchTest, ParetoOfASmallSceneIsComplete) {
-    writeCube();
+    writeText(folder() / "large.obj", nacre::test::largeObj);
+    writeText(folder() / "scene.json", R"({"models": [{"model": "large.obj", "material": "skin"}]})");
     const Outcome outcome = run({"bench", "pareto", "--quick", "--scene", "scene.json", "-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
     const std::string json = readText(folder() / "out/results.json");
@@ -163,6 +164,8 @@ TEST_F(BenchTest, ParetoOfASmallSceneIsComplete) {
     }
     EXPECT_EQ(techniques, (std::set<std::string>{"bank", "bank-surfaces", "burley", "separable", "thesis"}));
     EXPECT_FALSE(results.noiseFloors.empty());
+    ASSERT_TRUE(results.notes && results.notes->size() == 1);
+    EXPECT_NE(outcome.error.find("nacre: note: " + results.notes->front() + '\n'), std::string::npos) << outcome.error;
     EXPECT_TRUE(std::filesystem::exists(folder() / "out/results.csv"));
     EXPECT_TRUE(std::filesystem::exists(folder() / "out/report.html"));
 }

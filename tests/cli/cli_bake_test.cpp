@@ -126,6 +126,20 @@ TEST_F(BakeCommandTest, WritesAMeshWithAValueAVertex) {
     EXPECT_EQ(triangleCount(scene), 12u);
 }
 
+TEST_F(BakeCommandTest, NotesStandInTheReport) {
+    writeText(folder() / "large.obj", nacre::test::largeObj);
+    const Outcome outcome = bake({"large.obj", "-o", "c.ply", "--rays", "1", "--json", "c.json"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
+    const nlohmann::json scene = report("c.json").at("scene");
+    EXPECT_EQ(scene.at("name"), "large.obj");
+    ASSERT_EQ(scene.at("notes").size(), 1u);
+    const auto note = scene["notes"][0].get<std::string>();
+    EXPECT_NE(note.find("large.obj: does not state its unit"), std::string::npos) << note;
+    EXPECT_NE(outcome.error.find("nacre: note: " + note + '\n'), std::string::npos) << outcome.error;
+    ASSERT_EQ(bake({"plate.glb", "-o", "t.exr", "--size", "8x8", "--rays", "1", "--json", "t.json"}).exitCode, 0);
+    EXPECT_TRUE(report("t.json").at("scene").at("notes").empty());
+}
+
 TEST_F(BakeCommandTest, RefusesWhatHasNoPlaceInAPicture) {
     expectComplaint(bake({"cube.obj", "-o", "t.png"}), 1, {"cube.obj", "no texture coordinates", ".ply"});
     expectComplaint(bake({"plate.glb", "--surface", "skin"}), 1, {"plate.glb", "'skin'", "'plate'"});

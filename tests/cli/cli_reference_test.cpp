@@ -43,12 +43,26 @@ TEST_F(ReferenceCommandTest, WritesPictureCheckpointAndReport) {
     EXPECT_EQ(json["spp"]["least"], 4);
     EXPECT_EQ(json["stoppedBy"], "spp");
     EXPECT_GT(json["noise"].get<double>(), 0);
+    EXPECT_EQ(json.at("scene").at("name"), "cube.obj");
+    EXPECT_TRUE(json["scene"].at("notes").empty());
     const nacre::Image image = nacre::readRadiance(folder() / "r.exr");
     EXPECT_EQ(image.width, 24u);
     EXPECT_EQ(image.values[3], 0); // nothing in the corner
     const std::size_t middle = (8 * 24 + 12) * 4;
     EXPECT_GT(image.values[middle], 0);
     EXPECT_EQ(image.values[middle + 3], 1);
+}
+
+TEST_F(ReferenceCommandTest, NotesStandInTheReport) {
+    writeText(folder() / "large.obj", nacre::test::largeObj);
+    const Outcome outcome =
+        run({"reference", "large.obj", "--size", "4x4", "--spp", "1", "-o", "r.exr", "--json", "r.json"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.error;
+    const nlohmann::json notes = report("r.json").at("scene").at("notes");
+    ASSERT_EQ(notes.size(), 1u);
+    const auto note = notes[0].get<std::string>();
+    EXPECT_NE(note.find("large.obj: does not state its unit"), std::string::npos) << note;
+    EXPECT_NE(outcome.error.find("nacre: note: " + note + '\n'), std::string::npos) << outcome.error;
 }
 
 TEST_F(ReferenceCommandTest, PartsMergeToTheWholeToTheLastBit) {
@@ -58,6 +72,7 @@ TEST_F(ReferenceCommandTest, PartsMergeToTheWholeToTheLastBit) {
     EXPECT_EQ(run({"reference", "merge", "m.exr", "a.exr", "b.exr", "--json", "m.json"}).exitCode, 0);
     EXPECT_TRUE(readText(folder() / "m.exr") == readText(folder() / "whole.exr"));
     EXPECT_EQ(report("m.json")["stoppedBy"], "merge");
+    EXPECT_TRUE(report("m.json").at("scene").at("notes").empty());
     // What was merged goes on like the whole.
     EXPECT_EQ(run(arguments({"--spp", "5", "-o", "whole.exr", "--resume"})).exitCode, 0);
     EXPECT_EQ(run(arguments({"--spp", "5", "-o", "m.exr", "--resume"})).exitCode, 0);

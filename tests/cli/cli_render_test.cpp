@@ -245,7 +245,7 @@ std::string cubesScene() {
 }
 
 TEST_F(RenderTest, SaysOnceWhatTheImporterAssumed) {
-    writeText(folder() / "large.obj", "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    writeText(folder() / "large.obj", nacre::test::largeObj);
     writeText(folder() / "guessed.json", R"({"models": [{"model": "large.obj"}, {"model": "large.obj"}]})");
     writeText(folder() / "stated.json", R"({"models": [{"model": "large.obj", "units": "cm"}]})");
     const std::string note = "large.obj: does not state its unit; taken for centimetres\n";

@@ -42,6 +42,8 @@ void redirect(const fs::path& file, int descriptor) {
 
 } // namespace
 
+const char* const largeObj = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
 const char* const cubeObj = R"(v 0 0 0
 v 1 0 0
 v 1 1 0

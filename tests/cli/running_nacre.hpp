@@ -52,6 +52,9 @@ void writeText(const std::filesystem::path& file, const std::string& text);
 /// A Wavefront OBJ cube of one unit.
 extern const char* const cubeObj;
 
+/// A tetrahedron of 100 units, which are taken for centimetres, with a note.
+extern const char* const largeObj;
+
 /// A test with a folder of its own, removed afterwards.
 class CommandTest : public testing::Test {
 protected:

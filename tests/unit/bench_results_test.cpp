@@ -65,6 +65,7 @@ Results sample() {
         .commit = "0123abc",
         .created = "2026-01-02T03:04:05Z",
         .scene = "gallery",
+        .notes = std::vector<std::string>{"bust.obj: does not state its unit"},
         .machine = {"A device", "discrete", "driver 1", "1.3.0", "A processor", 8, {{"graphics", 1980, 1965}}},
         .procedure = {.quick = true, .warmUpFrames = 3, .repetitions = 100, .seconds = 12.5},
         .noiseFloors = {{"id", "experiment 2", times(100), times(101), 0.01}},

@@ -6,6 +6,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <turbojpeg.h>
 
 #include <algorithm>
 #include <array>
@@ -125,6 +126,42 @@ TEST_F(ImageFile, JpegIsReadAsItWasWritten) {
     cut.resize(cut.size() / 2);
     EXPECT_NE(errorOf([&] { decodeBytes(cut, "cut.jpg"); }).find("cut.jpg: the JPEG image cannot be decoded"),
               std::string::npos);
+}
+
+/// A JPEG of one colour of ink, which says so with Adobe's marker.
+std::vector<std::uint8_t> inkJpeg(const std::array<std::uint8_t, 4>& cmyk) {
+    std::vector<std::uint8_t> samples;
+    for (int i = 0; i < 64; ++i) {
+        samples.insert(samples.end(), cmyk.begin(), cmyk.end());
+    }
+    unsigned char* encoded = nullptr;
+    unsigned long size = 0;
+    const tjhandle compressor = tjInitCompress();
+    tjCompress2(compressor, samples.data(), 8, 0, 8, TJPF_CMYK, &encoded, &size, TJSAMP_444, 100, 0);
+    const std::vector<std::uint8_t> bytes(encoded, encoded + size);
+    tjFree(encoded);
+    tjDestroy(compressor);
+    return bytes;
+}
+
+TEST_F(ImageFile, JpegOfInkIsWhatTheInkLeaves) {
+    // Adobe's programs store what ink leaves: full cyan is 0.
+    const ByteImage adobe = decodeBytes(inkJpeg({0, 255, 255, 255}), "ink");
+    EXPECT_NEAR(adobe.rgba[0], 0, 3);
+    EXPECT_NEAR(adobe.rgba[1], 255, 3);
+    const ByteImage dark = decodeBytes(inkJpeg({255, 255, 255, 128}), "ink");
+    EXPECT_NEAR(dark.rgba[2], 128, 3);
+    // Without the marker the same numbers are shares of ink, and not turned into other ones: no cyan, half magenta and
+    // yellow, no black.
+    std::vector<std::uint8_t> plain = inkJpeg({255, 255, 255, 0});
+    const std::array<std::uint8_t, 2> marker{0xff, 0xee};
+    const auto found = std::ranges::search(plain, marker).begin();
+    ASSERT_NE(found, plain.end());
+    plain.erase(found, found + 2 + (found[2] << 8 | found[3]));
+    const ByteImage ink = decodeBytes(plain, "ink");
+    EXPECT_NEAR(ink.rgba[0], 255, 3);
+    EXPECT_NEAR(ink.rgba[1], 127, 3);
+    EXPECT_NEAR(ink.rgba[2], 127, 3);
 }
 
 TEST_F(ImageFile, PicturesThatAreCutOffAreRefused) {
@@ -300,6 +337,21 @@ TEST_F(ImageFile, BitmapsAreDecodedElsewhere) {
               "a.tga: is not a PNG, JPEG, WebP, BMP or TGA image that can be read");
     EXPECT_EQ(errorOf([] { nacre::runIsolated("a.bmp", {}, []() -> std::vector<std::uint8_t> { std::abort(); }); }),
               "a.bmp: is damaged: reading it fails with \"Aborted\"");
+}
+
+// Rows from the bottom up, and, with a negative height, from the top down.
+TEST_F(ImageFile, BitmapsHaveTheirRowsEitherWay) {
+    for (const std::uint8_t sign : {std::uint8_t{0}, std::uint8_t{0xff}}) {
+        std::vector<std::uint8_t> bmp{'B', 'M', 62, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0, 1, 0, 0, 0};
+        bmp.push_back(sign == 0 ? 2 : 0xfe); // 2 or -2
+        bmp.insert(bmp.end(), {sign, sign, sign, 1, 0, 24, 0});
+        bmp.resize(54);
+        bmp.insert(bmp.end(), {1, 2, 3, 0, 4, 5, 6, 0});
+        const ByteImage image = decodeBytes(bmp, "a.bmp");
+        EXPECT_EQ(image.height, 2u);
+        EXPECT_EQ(image.rgba[0], sign == 0 ? 6 : 3);
+        EXPECT_EQ(image.rgba[4], sign == 0 ? 3 : 6);
+    }
 }
 
 // OpenEXR would make room for two gigabytes.

@@ -3,10 +3,12 @@
 
 #include "image/color.hpp"
 #include "nacre/media.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 
 using namespace nacre;
 using scene::importMaterialX;
@@ -119,6 +121,84 @@ TEST(MaterialX, FollowsConstantsAndNamesTheRest) {
     expectNear(read.material.meanFreePath.value(), burleyMeanFreePath({0.8, 0.8, 0.8}, {25.4, 12.7, 6.35}));
     EXPECT_EQ(read.notes, std::vector<std::string>{"test.mtlx: open_pbr_surface \"surface\": subsurface_color is "
                                                    "computed by nodes, which are not read; it has its default"});
+}
+
+TEST(MaterialX, FollowsConstantsThroughGraphs) {
+    const std::string graph =
+        "<nodegraph name=\"g\" colorspace=\"srgb_texture\"><input name=\"k\" value=\"0.5,0.5,0.5\"/>"
+        "<dot name=\"d\"><input name=\"in\" interfacename=\"k\"/></dot>"
+        "<constant name=\"c\"><input name=\"value\" nodename=\"d\"/></constant>"
+        "<constant name=\"r\"><input name=\"value\" value=\"+2\" unit=\"millimeter\"/></constant>"
+        "<output name=\"color\" nodename=\"c\"/><output name=\"radius\" nodename=\"r\"/></nodegraph>";
+    // A constant of the same name outside of the graph is another.
+    const std::string other = "<constant name=\"c\"><input name=\"value\" value=\"0.1,0.1,0.1\"/></constant>";
+    const MaterialXImport read =
+        import(document(other + graph +
+                        openPbr(input("subsurface_weight", "1") +
+                                "<input name=\"subsurface_color\" nodegraph=\"g\" output=\"color\"/>"
+                                "<input name=\"subsurface_radius\" nodegraph=\"g\" output=\"radius\"/>")));
+    const double gray = decodeSrgb(0.5f);
+    EXPECT_EQ(read.notes, std::vector<std::string>{});
+    expectNear(read.material.albedo, {gray, gray, gray});
+    expectNear(read.material.meanFreePath.value(), burleyMeanFreePath({gray, gray, gray}, {2, 1, 0.5}));
+    const std::string circle = "<dot name=\"a\"><input name=\"in\" nodename=\"b\"/></dot>"
+                               "<dot name=\"b\"><input name=\"in\" nodename=\"a\"/></dot>";
+    EXPECT_EQ(import(document(circle + openPbr(input("subsurface_weight", "1") +
+                                               "<input name=\"subsurface_color\" nodename=\"a\"/>" +
+                                               input("subsurface_radius", "1", "unit=\"inch\""))))
+                  .notes.size(),
+              1u);
+}
+
+TEST(MaterialX, BringsColorsOfEverySpace) {
+    const auto colorIn = [](const std::string& space, const std::string& color) {
+        return import("<materialx version=\"1.39\" colorspace=\"" + space + "\">" +
+                      openPbr(input("subsurface_weight", "1") + input("subsurface_color", color)) + "</materialx>")
+            .material.albedo;
+    };
+    expectNear(colorIn("g22_rec709", "0.5,0.5,0.5"), {0.217638, 0.217638, 0.217638}, 1e-5);
+    expectNear(colorIn("g18_rec709", "0.5,0,0"), {0.287175, 0, 0}, 1e-5);
+    for (const char* space : {"acescg", "lin_ap1", "lin_adobergb", "lin_displayp3"}) {
+        expectNear(colorIn(space, "0.5,0.5,0.5"), {0.5, 0.5, 0.5}, 1e-5); // white stays white
+    }
+    // Rec.709's green in Display P3, and P3's own, which is beyond it.
+    expectNear(colorIn("lin_displayp3", "0.177538,0.966806,0.072397"), {0, 1, 0}, 2e-5);
+    expectNear(colorIn("lin_displayp3", "0,1,0"), {0, 1, 0});
+    EXPECT_NE(import("<materialx colorspace=\"odd\">" +
+                     openPbr(input("subsurface_weight", "1") + input("subsurface_color", "0.5,0.5,0.5")) +
+                     "</materialx>")
+                  .notes.at(0)
+                  .find("\"odd\""),
+              std::string::npos);
+}
+
+TEST(MaterialX, ReadsWhatItIncludes) {
+    const nacre::tests::TemporaryFolder temporary;
+    const auto write = [&](const std::string& name, const std::string& text) {
+        std::ofstream(temporary.path / name) << text;
+        return temporary.path / name;
+    };
+    const auto including = [](const std::string& name) { return "<xi:include href=\"" + name + "\"/>"; };
+    std::filesystem::create_directory(temporary.path / "sub");
+    write("sub/skin.mtlx", "<materialx colorspace=\"srgb_texture\">" + including("more.mtlx") +
+                               openPbr(input("subsurface_weight", "1") + input("subsurface_color", "0.5,0.5,0.5") +
+                                       "<input name=\"subsurface_radius\" nodename=\"r\"/>") +
+                               "</materialx>");
+    write("sub/more.mtlx", document(including("../a.mtlx") + "<constant name=\"r\">" +
+                                    input("value", "1", "unit=\"inch\"") + "</constant>"));
+    const MaterialXImport read =
+        importMaterialX(write("a.mtlx", document(including("sub/skin.mtlx") + including("../none.mtlx"))));
+    const double gray = decodeSrgb(0.5f);
+    expectNear(read.material.albedo, {gray, gray, gray});
+    expectNear(read.material.meanFreePath.value(), burleyMeanFreePath({gray, gray, gray}, {25.4, 12.7, 6.35}));
+    EXPECT_EQ(read.inputs.size(), 2u);
+    ASSERT_EQ(read.notes.size(), 2u); // a.mtlx is not below sub
+    EXPECT_NE(read.notes[0].find("more.mtlx: includes \"../a.mtlx\", which lies outside"), std::string::npos);
+    EXPECT_NE(read.notes[1].find("a.mtlx: includes \"../none.mtlx\", which does not exist; it is left out"),
+              std::string::npos);
+    EXPECT_THROW(importMaterialX(write("b.mtlx", document(including("c.txt")))), FileError);
+    write("c.txt", "not XML");
+    EXPECT_THROW(importMaterialX(write("b.mtlx", document(including("c.txt")))), FileError);
 }
 
 TEST(MaterialX, IsChosenByName) {

@@ -1,4 +1,4 @@
-#include "scene/assimp/threemf_unit.hpp"
+#include "scene/assimp/threemf_facts.hpp"
 
 #include "scene/scene.hpp"
 
@@ -26,13 +26,30 @@ struct Close {
     void operator()(void* package) const { unzClose(package); }
 };
 
+bool isModel(void* package) {
+    std::array<char, 256> name{};
+    return unzGetCurrentFileInfo64(package, nullptr, name.data(), name.size() - 1, nullptr, 0, nullptr, 0) == UNZ_OK &&
+           std::string_view(name.data()).ends_with(".model");
+}
+
+/// Goes to the package's model, which nearly all call 3D/3dmodel.model.
+bool locateModel(void* package) {
+    constexpr int ignoresCase = 2;
+    if (unzLocateFile(package, "3D/3dmodel.model", ignoresCase) == UNZ_OK) {
+        return true;
+    }
+    int result = unzGoToFirstFile(package);
+    while (result == UNZ_OK && !isModel(package)) {
+        result = unzGoToNextFile(package);
+    }
+    return result == UNZ_OK;
+}
+
 /// The beginning of the package's model, empty where it cannot be read.
 std::string readHead(const std::filesystem::path& file) {
     const std::unique_ptr<void, Close> package(unzOpen64(file.c_str()));
     std::string head;
-    constexpr int ignoresCase = 2;
-    if (package && unzLocateFile(package.get(), "3D/3dmodel.model", ignoresCase) == UNZ_OK &&
-        unzOpenCurrentFile(package.get()) == UNZ_OK) {
+    if (package && locateModel(package.get()) && unzOpenCurrentFile(package.get()) == UNZ_OK) {
         head.resize(headBytes);
         const int count = unzReadCurrentFile(package.get(), head.data(), headBytes);
         head.resize(static_cast<std::size_t>(std::max(count, 0)));
@@ -57,7 +74,7 @@ std::string_view attributeOf(std::string_view text, std::string_view name) {
 
 } // namespace
 
-double threemfMetersPerUnit(const std::filesystem::path& file) {
+ThreemfFacts readThreemfFacts(const std::filesystem::path& file) {
     const std::string head = readHead(file);
     const std::size_t model = head.find("<model");
     const std::string_view unit =
@@ -68,7 +85,8 @@ double threemfMetersPerUnit(const std::filesystem::path& file) {
         throw SceneError(file.string() + ": the model's unit is \"" + std::string(named) +
                          "\", must be micron, millimeter, centimeter, inch, foot or meter");
     }
-    return found->meters;
+    const bool hasColors = head.find("colorgroup") != head.npos || head.find("texture2dgroup") != head.npos;
+    return {found->meters, hasColors};
 }
 
 } // namespace nacre::scene
