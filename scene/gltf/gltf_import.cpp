@@ -6,6 +6,7 @@
 #include "scene/gltf/gltf_light.hpp"
 #include "scene/gltf/gltf_material.hpp"
 #include "scene/gltf/gltf_mesh.hpp"
+#include "scene/gltf/gltf_pose.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -247,9 +248,16 @@ private:
         const std::string field = "cameras[" + std::to_string(node(index).camera) + "]";
         Camera camera;
         camera.name = source.name.empty() ? node(index).name : source.name;
+        const auto up = unitAxis(transform, 1);
+        const auto back = unitAxis(transform, 2);
+        if (!up || !back || glm::length(glm::cross(*up, *back)) == 0) {
+            scene_.notes.push_back(file_.path.string() + ": " + nodeField(index) +
+                                   " has a scale of 0: its camera looks nowhere and is left out");
+            return;
+        }
         camera.position = glm::vec3(transform[3]);
-        camera.target = camera.position - glm::normalize(glm::vec3(transform[2]));
-        camera.up = glm::normalize(glm::vec3(transform[1]));
+        camera.target = camera.position - *back;
+        camera.up = *up;
         if (source.type == "orthographic") {
             camera.projection = ProjectionKind::Orthographic;
             camera.orthographicHeight = static_cast<float>(

@@ -1,6 +1,7 @@
 #include "scene/gltf/gltf_light.hpp"
 
 #include "scene/gltf/gltf_object.hpp"
+#include "scene/gltf/gltf_pose.hpp"
 
 #include <numbers>
 
@@ -53,7 +54,8 @@ std::optional<Light> readLight(const GltfFile& file, const tinygltf::Node& node,
     light.intensity = number(source.intensity, 0, brightest, ".intensity");
     light.range = number(source.range, 0, brightest, ".range");
     light.position = glm::vec3(transform[3]);
-    light.direction = -glm::normalize(glm::vec3(transform[2]));
+    // A scale of 0 leaves no direction; the node's own is as good as any.
+    light.direction = -unitAxis(transform, 2).value_or(glm::vec3(0, 0, 1));
     light.outerConeAngle = number(source.spot.outerConeAngle, 1e-4, std::numbers::pi / 2, ".spot.outerConeAngle");
     light.innerConeAngle = number(source.spot.innerConeAngle, 0, light.outerConeAngle, ".spot.innerConeAngle");
     return light;

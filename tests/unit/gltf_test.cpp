@@ -189,6 +189,24 @@ TEST(Gltf, ReadsCamerasAndLights) {
               "test.glb: extensions.KHR_lights_punctual.lights[1].intensity is -3, must be 0 to 1e+12");
 }
 
+TEST(Gltf, LeavesOutACameraThatLooksNowhere) {
+    GltfBuilder builder;
+    builder.setSquare();
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
+    builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    builder.json["nodes"] = {{{"mesh", 0}, {"children", {1, 2, 3}}},
+                             {{"camera", 0}, {"scale", {1, 0, 1}}},
+                             {{"camera", 0}, {"scale", {1e-30, 1e-30, 1e-30}}}, // looks as any other
+                             {{"scale", {1, 1, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    const Scene scene = builder.load();
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    expectVec3(scene.cameras[0].target, {0, 0, -1});
+    expectVec3(scene.cameras[0].up, {0, 1, 0});
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_EQ(scene.notes[0], "test.glb: nodes[1] has a scale of 0: its camera looks nowhere and is left out");
+    expectVec3(scene.lights.at(0).direction, {0, 0, -1});
+}
+
 struct Damage {
     const char* pointer;
     Json value;

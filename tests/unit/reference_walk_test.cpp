@@ -225,7 +225,8 @@ TEST(SlabTest, ForwardScatteringFollowsSimilarity) {
         return mean.value().g;
     };
     const double reduced = reducedAlbedo(0.99, 0.8);
-    EXPECT_NEAR(returned(mediumOf({0.99, 0.99, 0.99}, 1, 0.8)), returned(mediumOf({reduced, reduced, reduced})), 0.015 * noise);
+    EXPECT_NEAR(returned(mediumOf({0.99, 0.99, 0.99}, 1, 0.8)), returned(mediumOf({reduced, reduced, reduced})),
+                0.015 * noise);
 }
 
 TEST(SearchlightTest, SpreadsAsTheFitToItSays) {
