@@ -1,6 +1,7 @@
 #include "bench/results/results.hpp"
 
 #include "bench/results/series_fits.hpp"
+#include "core/files/json_fault.hpp"
 #include "nacre/files.hpp"
 
 #include <nlohmann/json.hpp>
@@ -348,18 +349,12 @@ void check(const Results& results) {
     }
 }
 
-// The library's messages start with "[json.exception.parse_error.101] ".
-std::string withoutPrefix(std::string_view message) {
-    const auto end = message.starts_with('[') ? message.find("] ") : std::string_view::npos;
-    return std::string(end == std::string_view::npos ? message : message.substr(end + 2));
-}
-
 Results readResults(std::string_view text) {
     Json json;
     try {
         json = Json::parse(text);
     } catch (const Json::exception& error) {
-        throw FileError(withoutPrefix(error.what()));
+        throw FileError(jsonFault(error.what()));
     }
     if (!json.is_object() || json.value("format", Json()) != formatName) {
         throw FileError("is not a benchmark result (its \"format\" is not \"" + std::string(formatName) + "\")");

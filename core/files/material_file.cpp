@@ -1,5 +1,6 @@
 #include "nacre/files.hpp"
 
+#include "core/files/json_fault.hpp"
 #include "core/files/json_structure.hpp"
 #include "core/files/open_pbr.hpp"
 #include "nacre/layering.hpp"
@@ -28,12 +29,6 @@ constexpr std::pair<const char*, double SkinContent::*> skinShares[] = {{"melani
 
 constexpr const char* infiniteThickness = "infinite";
 
-// The library's messages start with "[json.exception.parse_error.101] ".
-std::string withoutPrefix(std::string_view message) {
-    const auto end = message.starts_with('[') ? message.find("] ") : std::string_view::npos;
-    return std::string(end == std::string_view::npos ? message : message.substr(end + 2));
-}
-
 // Material files have three levels; unbounded ones would exhaust the stack.
 constexpr int maxDepth = 16;
 
@@ -41,12 +36,12 @@ constexpr int maxDepth = 16;
 Json parseJson(std::string_view text) {
     JsonStructure<Json> structure(
         maxDepth, [] { throw FileError("is nested deeper than " + std::to_string(maxDepth) + " levels"); },
-        [](const std::string& key) { throw FileError("the key \"" + key + "\" is given twice"); });
+        [](const std::string& key) { throw FileError("the key \"" + withoutMiddle(key) + "\" is given twice"); });
     try {
         Json::sax_parse(text, &structure);
         return Json::parse(text);
     } catch (const Json::exception& error) {
-        throw FileError(withoutPrefix(error.what()));
+        throw FileError(jsonFault(error.what()));
     }
 }
 
@@ -117,7 +112,7 @@ template <typename Visit> void readObject(const Json& object, const std::string&
     for (const auto& [key, value] : object.items()) {
         const std::string name = field.empty() ? key : field + "." + key;
         if (!visit(key, name, value)) {
-            throw FileError("the key \"" + name + "\" is unknown");
+            throw FileError("the key \"" + withoutMiddle(name) + "\" is unknown");
         }
     }
 }

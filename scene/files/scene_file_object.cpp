@@ -1,5 +1,6 @@
 #include "scene/files/scene_file_object.hpp"
 
+#include "core/files/json_fault.hpp"
 #include "core/files/json_structure.hpp"
 #include "scene/json_text.hpp"
 #include "scene/named_file.hpp"
@@ -192,16 +193,13 @@ Json parseSceneJson(const std::string& file, std::span<const std::uint8_t> bytes
     JsonStructure<Json> structure(
         maxDepth, [&file] { throw SceneError(file + ": is nested more than " + std::to_string(maxDepth) + " deep"); },
         [&file](const std::string& key) {
-            throw SceneError(file + ": the key " + Json(key).dump() + " is given twice");
+            throw SceneError(file + ": the key " + shorten(Json(key)) + " is given twice");
         });
     try {
         Json::sax_parse(bytes.begin(), bytes.end(), &structure);
         return Json::parse(bytes.begin(), bytes.end());
     } catch (const Json::exception& error) {
-        const std::string message = error.what(); // begins with "[json.exception.parse_error.101] "
-        const std::size_t end = message.find("] ");
-        throw SceneError(file +
-                         ": is not valid JSON: " + (end == std::string::npos ? message : message.substr(end + 2)));
+        throw SceneError(file + ": is not valid JSON: " + jsonFault(error.what()));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_file.hpp"
 
+#include "core/files/json_fault.hpp"
 #include "core/files/json_structure.hpp"
 #include "scene/gltf/gltf_draco.hpp"
 #include "scene/gltf/gltf_import.hpp"
@@ -101,9 +102,7 @@ Json parseJson(const GltfFile& file, std::span<const std::uint8_t> text) {
         Json::sax_parse(text.begin(), text.end(), &structure);
         json = Json::parse(text.begin(), text.end());
     } catch (const Json::exception& error) {
-        const std::string_view message = error.what();
-        failGltf(file,
-                 "is not valid JSON: " + std::string(message.substr(std::min(message.find("] ") + 2, message.size()))));
+        failGltf(file, "is not valid JSON: " + jsonFault(error.what()));
     }
     if (!json.is_object()) {
         failGltf(file, "is not a JSON object");
@@ -136,7 +135,7 @@ void checkExtensions(const GltfFile& file, const Json& document) {
     }
     for (const Json& name : *required) {
         if (!name.is_string() || !isKnown(name.get<std::string>())) {
-            failGltf(file, "requires the extension " + name.dump() + ", which is not supported");
+            failGltf(file, "requires the extension " + shorten(name) + ", which is not supported");
         }
     }
 }

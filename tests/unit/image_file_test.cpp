@@ -155,7 +155,7 @@ TEST_F(ImageFile, JpegOfInkIsWhatTheInkLeaves) {
     // yellow, no black.
     std::vector<std::uint8_t> plain = inkJpeg({255, 255, 255, 0});
     const std::array<std::uint8_t, 2> marker{0xff, 0xee};
-    const auto found = std::ranges::search(plain, marker).begin();
+    const auto found = std::search(plain.begin(), plain.end(), marker.begin(), marker.end());
     ASSERT_NE(found, plain.end());
     plain.erase(found, found + 2 + (found[2] << 8 | found[3]));
     const ByteImage ink = decodeBytes(plain, "ink");

@@ -1,5 +1,6 @@
 #include "view/model/edited_file.hpp"
 
+#include "core/files/json_fault.hpp"
 #include "scene/files/scene_file_light.hpp"
 
 namespace nacre::view {
@@ -96,7 +97,7 @@ EditedScene parseEdited(std::string_view text, const std::string& source, const 
     try {
         return read(json::parse(text), source, base);
     } catch (const json::exception& error) {
-        throw FileError(source + ": is not a recovery file: " + error.what());
+        throw FileError(source + ": is not a recovery file: " + jsonFault(error.what()));
     } catch (const FileError& error) {
         throw FileError(source + ": " + error.what());
     }
