@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Every test: the layout of the code, the whole suite optimised and compiled by GCC, clang-tidy; then, compiled by clang, the CPU
-# tests under AddressSanitizer and UndefinedBehaviorSanitizer, and two contexts on two threads under ThreadSanitizer.
+# Every test: the layout of the code, the whole suite optimised and compiled by GCC, clang-tidy over the library; then,
+# compiled by clang, the CPU tests under AddressSanitizer and UndefinedBehaviorSanitizer, and two contexts on two threads under
+# ThreadSanitizer.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -28,7 +29,7 @@ check scripts/dev format --check
 for preset in release asan tsan; do
     echo "== $preset ==" | tee -a "$log"
     run_preset "$preset" || status=$?
-    [ "$preset" != release ] || check scripts/dev tidy
+    [ "$preset" != release ] || check scripts/dev tidy --library
 done
 
 echo
