@@ -5,6 +5,7 @@
 #include "scene/default_view.hpp"
 #include "scene/files/scene_file.hpp"
 #include "scene/gltf/gltf_import.hpp"
+#include "scene/named_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -13,12 +14,6 @@
 
 namespace nacre::scene {
 namespace {
-
-std::string extensionOf(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
 
 bool startsLikeJson(std::span<const std::uint8_t> bytes) {
     const auto first = std::ranges::find_if(bytes, [](std::uint8_t c) { return std::isspace(c) == 0; });

@@ -3,6 +3,7 @@
 #include "scene/json_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace nacre::scene {
 namespace {
@@ -80,6 +81,12 @@ std::span<const std::uint8_t> NamedFiles::read(const std::string& reference, con
         }
     }
     return entry->second;
+}
+
+std::string extensionOf(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
 }
 
 std::vector<std::string> NamedFiles::paths() const {

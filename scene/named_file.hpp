@@ -20,6 +20,9 @@ std::string faultOfNamedFile(const std::filesystem::path& owner, const std::stri
 /// findNamedFile, with an empty path in place of an error.
 std::filesystem::path tryNamedFile(const std::filesystem::path& owner, const std::string& reference);
 
+/// With its dot, in small letters; empty where there is none.
+std::string extensionOf(const std::filesystem::path& file);
+
 /// Reads each file that a file names once, however often it is named.
 class NamedFiles {
 public:

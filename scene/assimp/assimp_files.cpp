@@ -2,19 +2,13 @@
 
 #include "nacre/files.hpp"
 #include "scene/assimp/assimp_text.hpp"
+#include "scene/named_file.hpp"
 
 #include <algorithm>
 #include <assimp/MemoryIOWrapper.h>
-#include <cctype>
 
 namespace nacre::scene {
 namespace {
-
-std::string extensionOf(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
 
 /// A stream that owns what it reads.
 class TextStream : public Assimp::MemoryIOStream {

@@ -9,6 +9,7 @@
 #include "scene/import.hpp"
 #include "scene/import_isolated.hpp"
 #include "scene/import_mesh.hpp"
+#include "scene/named_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,13 +40,11 @@ class AssimpImporter {
 public:
     AssimpImporter(const std::filesystem::path& file, const aiScene& source, Scene& scene)
         : name_(file.string()),
-          extension_(file.extension().string()),
+          extension_(extensionOf(file)),
           source_(source),
           scene_(scene),
           materials_(file, source, scene),
-          meshes_(source.mNumMeshes, none) {
-        std::ranges::transform(extension_, extension_.begin(), [](unsigned char c) { return std::tolower(c); });
-    }
+          meshes_(source.mNumMeshes, none) {}
 
     void run() {
         if (source_.mRootNode != nullptr) {
