@@ -162,7 +162,7 @@ Reference::Reference(const scene::Scene& scene, const scene::Camera& camera, con
     } else {
         self.estimator = std::make_unique<SurfaceIntegral>(self.geometry, self.light, settings.exchange);
     }
-    for (std::uint32_t pixel = 0; pixel < self.film.pixels.size(); ++pixel) {
+    for (std::uint32_t pixel = 0; pixel < self.film.pixels.size() && !settings.cancel.stop_requested(); ++pixel) {
         if (settings.part.has(pixel)) {
             self.pixels.push_back(pixel);
         }
@@ -196,6 +196,9 @@ Stopped Reference::run(const Stop& stop, const std::function<bool(const Progress
     const Clock::time_point start = Clock::now();
     double sliceSamples = firstSliceSamples;
     double added = 0;
+    if (self.settings.cancel.stop_requested()) {
+        return Stopped::Interrupted;
+    }
     Progress progress;
     progress.spp = self.completeSpp();
     progress.sppNow = progress.spp;

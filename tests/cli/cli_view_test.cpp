@@ -245,7 +245,8 @@ TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
     EXPECT_TRUE(std::filesystem::is_empty(kept)) << "it would be offered once more";
 }
 
-/// Less than half a second on a machine that has nothing else to do; tests run beside each other.
+/// The whole reference takes minutes. Closing takes less than half a second on a machine that has nothing else to do,
+/// but tests run beside each other.
 TEST_F(ViewTest, ClosingWhileAReferenceRunsIsSoonOver) {
     const Json steps{{{"wait", true}},
                      {{"panel", "Compare"}},
@@ -261,7 +262,7 @@ TEST_F(ViewTest, ClosingWhileAReferenceRunsIsSoonOver) {
     }
     const auto begin = std::chrono::steady_clock::now();
     const Outcome outcome = running.wait();
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
 }
 

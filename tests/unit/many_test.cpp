@@ -4,11 +4,11 @@
 #include "scene/outline.hpp"
 
 #include "tests/support/gltf_builder.hpp"
+#include "tests/support/processor_time.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <fstream>
 
 using namespace nacre::scene;
@@ -24,19 +24,14 @@ constexpr int many = 10'000;
 constexpr int many = 100'000;
 #endif
 
-/// Of processor time.
-double secondsSince(std::clock_t start) {
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
 /// Loads as a command does, and holds it to the seconds.
 Scene load(GltfBuilder& builder, double seconds) {
     const std::vector<std::uint8_t> bytes = builder.glb();
-    const std::clock_t start = std::clock();
+    const double start = nacre::tests::processorSeconds();
     Scene scene = loadGltf("many.glb", bytes);
     fitLights(scene);
     addMissingViewAndLights(scene);
-    EXPECT_LT(secondsSince(start), seconds);
+    EXPECT_LT(nacre::tests::processorSeconds() - start, seconds);
     return scene;
 }
 
@@ -128,10 +123,10 @@ TEST(Many, ModelsOfASceneFile) {
         models.push_back({{"model", "square.glb"}, {"translate", {i, 0, 0}}});
     }
     const std::string text = Json{{"models", models}}.dump();
-    const std::clock_t start = std::clock();
+    const double start = nacre::tests::processorSeconds();
     const Scene scene =
         readSceneFile(folder.path / "many.json", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    EXPECT_LT(secondsSince(start), 10);
+    EXPECT_LT(nacre::tests::processorSeconds() - start, 10);
     EXPECT_EQ(scene.instances.size(), static_cast<std::size_t>(many));
     EXPECT_EQ(scene.meshes.size(), 1u);
 }
