@@ -144,8 +144,12 @@ Scene makeScene(const SceneOptions& options) {
 }
 
 void printNotes(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) {
+    constexpr std::size_t most = 50;
+    for (const std::string& note : std::span(notes).first(std::min(most, notes.size()))) {
         std::cerr << "nacre: note: " << printable(note) << '\n';
+    }
+    if (notes.size() > most) {
+        std::cerr << "nacre: note: " << notes.size() - most << " more notes stand in the report of --json\n";
     }
 }
 

@@ -1,4 +1,5 @@
 // Pictures made to be shown: which decoder reads them, and PNG, JPEG and Radiance files written by stb_image_write.
+#include "core/files/unavailable.hpp"
 #include "image/codecs.hpp"
 #include "nacre/files.hpp"
 
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stb/stb_image_write.h>
+#include <string_view>
 
 namespace nacre {
 namespace {
@@ -48,6 +50,34 @@ struct Format {
     IntegerImage (*decode)(std::span<const std::uint8_t> bytes, const std::string& name);
 };
 
+/// How the files of formats begin that are not read as pictures of whole numbers.
+struct UnreadFormat {
+    std::string_view name;
+    std::size_t offset;
+    std::string_view signature;
+};
+
+constexpr UnreadFormat unreadFormats[] = {{"KTX", 0, "\xabKTX 11\xbb"},
+                                          {"KTX2", 0, "\xabKTX 20\xbb"},
+                                          {"DDS", 0, "DDS "},
+                                          {"GIF", 0, "GIF8"},
+                                          {"TIFF", 0, std::string_view("II*\0", 4)},
+                                          {"TIFF", 0, std::string_view("MM\0*", 4)},
+                                          {"Photoshop", 0, "8BPS"},
+                                          {"AVIF or HEIF", 4, "ftyp"},
+                                          {"JPEG XL", 4, "JXL "},
+                                          {"OpenEXR", 0, "\x76\x2f\x31\x01"},
+                                          {"Radiance", 0, "#?R"}};
+
+void requireReadFormat(std::span<const std::uint8_t> bytes, const std::string& name) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (const UnreadFormat& format : unreadFormats) {
+        if (text.size() > format.offset && text.substr(format.offset).starts_with(format.signature)) {
+            throw Unavailable(name + ": is a " + std::string(format.name) + " image, which is not read here");
+        }
+    }
+}
+
 IntegerImage decodeInteger(std::span<const std::uint8_t> bytes, const std::string& name) {
     constexpr Format formats[] = {{isPng, decodePng}, {isJpeg, decodeJpeg}, {isWebp, decodeWebp}};
     for (const Format& format : formats) {
@@ -55,6 +85,7 @@ IntegerImage decodeInteger(std::span<const std::uint8_t> bytes, const std::strin
             return format.decode(bytes, name);
         }
     }
+    requireReadFormat(bytes, name);
     return decodeBitmap(bytes, name);
 }
 

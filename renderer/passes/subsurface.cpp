@@ -124,6 +124,11 @@ void Subsurface::createContext(std::uint32_t techniques) {
     contextInfo.messageCallback = keepMessage;
     contextInfo.userData = message_.get();
     NacreContext context = nullptr;
+    if (materials_.size() > NACRE_MAX_MATERIALS) {
+        throw RendererError("the scene has " + std::to_string(materials_.size()) +
+                            " subsurface materials, of which at most " + std::to_string(NACRE_MAX_MATERIALS) +
+                            " can be drawn at a time");
+    }
     check(nacreCreateContext(&contextInfo, &context));
     context_.reset(context);
     techniques_ = techniques;

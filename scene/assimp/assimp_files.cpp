@@ -2,6 +2,7 @@
 
 #include "nacre/files.hpp"
 #include "scene/assimp/assimp_text.hpp"
+#include "scene/json_text.hpp"
 #include "scene/named_file.hpp"
 
 #include <algorithm>
@@ -9,6 +10,9 @@
 
 namespace nacre::scene {
 namespace {
+
+/// Of an OBJ. The time that Assimp takes grows with the square of their number: a minute for a hundred thousand.
+constexpr std::size_t mostObjects = 20'000;
 
 /// A stream that owns what it reads.
 class TextStream : public Assimp::MemoryIOStream {
@@ -60,8 +64,12 @@ Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
     }
     std::vector<std::uint8_t> text = readFile(path);
     clearUp(text, extension);
-    if (extension == ".mtl") {
+    if (extension == ".obj") {
+        usedMaterials_ = namesAfter("usemtl", text);
+        hasJoinedObjects_ = joinObjects(text, mostObjects);
+    } else if (extension == ".mtl") {
         hasLibrary_ = true;
+        knownMaterials_.merge(namesAfter("newmtl", text));
         hasTextureOptions_ = hasTextureOptions_ || placesTextures(text);
     }
     return text.empty() ? nullptr : new TextStream(std::move(text));
@@ -73,8 +81,19 @@ std::vector<std::string> AssimpFiles::notes() const {
         notes.push_back(model_.string() + ": names \"" + missingLibraries_.front() +
                         "\", which is not there; its materials are left out");
     }
+    std::vector<std::string> unknown;
+    std::ranges::set_difference(usedMaterials_, knownMaterials_, std::back_inserter(unknown));
+    if (hasLibrary_ && !unknown.empty()) {
+        const std::string more = unknown.size() > 1 ? " and " + std::to_string(unknown.size() - 1) + " more" : "";
+        notes.push_back(model_.string() + ": uses the material " + shorten(unknown.front()) + more +
+                        ", which no library has; its faces are grey");
+    }
     if (hasTextureOptions_) {
         notes.push_back(model_.string() + ": its materials scale or move textures (-s, -o), which is not read");
+    }
+    if (hasJoinedObjects_) {
+        notes.push_back(model_.string() + ": has more than " + std::to_string(mostObjects) +
+                        " objects and groups, which are read as one");
     }
     return notes;
 }

@@ -4,6 +4,7 @@
 #include "scene/named_file.hpp"
 
 #include <assimp/DefaultIOSystem.h>
+#include <set>
 
 namespace nacre::scene {
 
@@ -17,7 +18,7 @@ public:
 
     /// What was opened, apart from the model.
     const std::vector<std::string>& inputs() const { return inputs_; }
-    /// What of the material libraries was left out, a sentence each.
+    /// What was left out or is missing, a sentence each.
     std::vector<std::string> notes() const;
 
 private:
@@ -27,8 +28,11 @@ private:
     std::filesystem::path model_;
     std::vector<std::string> inputs_;
     std::vector<std::string> missingLibraries_;
+    std::set<std::string> usedMaterials_;
+    std::set<std::string> knownMaterials_;
     bool hasLibrary_ = false;
     bool hasTextureOptions_ = false;
+    bool hasJoinedObjects_ = false;
 };
 
 } // namespace nacre::scene

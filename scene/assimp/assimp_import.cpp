@@ -50,6 +50,9 @@ public:
         if (source_.mRootNode != nullptr) {
             addNode(*source_.mRootNode, axes(), 0);
         }
+        if (hasLostNodes_) {
+            placeTheRest();
+        }
         if (scene_.instances.empty()) {
             throw SceneError(name_ + ": has no triangles");
         }
@@ -91,16 +94,32 @@ private:
         }
         placed_.emplace(node.mName.C_Str(), transform);
         for (const unsigned mesh : std::span(node.mMeshes, node.mNumMeshes)) {
-            const std::uint32_t converted = this->mesh(mesh);
-            if (scene_.instances.size() >= maxInstances) {
-                throw SceneError(name_ + ": places more than " + std::to_string(maxInstances) + " meshes");
-            }
-            if (converted != none) {
-                scene_.instances.push_back({node.mName.C_Str(), converted, transform});
-            }
+            place(mesh, node.mName.C_Str(), transform);
         }
         for (const aiNode* child : std::span(node.mChildren, node.mNumChildren)) {
-            addNode(*child, transform, depth + 1);
+            if (child != nullptr) {
+                addNode(*child, transform, depth + 1);
+            }
+            hasLostNodes_ = hasLostNodes_ || child == nullptr;
+        }
+    }
+
+    void place(unsigned mesh, const char* name, const glm::mat4& transform) {
+        const std::uint32_t converted = this->mesh(mesh);
+        if (scene_.instances.size() >= maxInstances) {
+            throw SceneError(name_ + ": places more than " + std::to_string(maxInstances) + " meshes");
+        }
+        if (converted != none) {
+            scene_.instances.push_back({name, converted, transform});
+        }
+    }
+
+    /// Assimp loses nodes of RAW files with several groups, which have no transforms, and keeps their meshes.
+    void placeTheRest() {
+        for (unsigned mesh = 0; mesh < source_.mNumMeshes; ++mesh) {
+            if (meshes_[mesh] == none) {
+                place(mesh, source_.mMeshes[mesh]->mName.C_Str(), glm::mat4(1));
+            }
         }
     }
 
@@ -263,6 +282,7 @@ private:
     AssimpMaterials materials_;
     std::vector<std::uint32_t> meshes_;
     std::map<std::string, glm::mat4> placed_;
+    bool hasLostNodes_ = false;
     glm::vec3 center_{0}; ///< of everything that was placed
 };
 

@@ -1,5 +1,6 @@
 #include "scene/assimp/assimp_material.hpp"
 
+#include "core/files/unavailable.hpp"
 #include "image/image_file.hpp"
 #include "scene/named_file.hpp"
 #include "scene/texture.hpp"
@@ -73,6 +74,16 @@ Wrap wrapOf(aiTextureMapMode mode) {
     }
 }
 
+constexpr std::array colorTypes{aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE};
+constexpr std::array emissionTypes{aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE};
+constexpr std::array normalTypes{aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA};
+constexpr std::array opacityTypes{aiTextureType_OPACITY};
+
+/// Whether the material names a texture of one of the types, be it there or not.
+bool isTextured(const aiMaterial& material, std::span<const aiTextureType> types) {
+    return std::ranges::any_of(types, [&](aiTextureType type) { return material.GetTextureCount(type) > 0; });
+}
+
 float clamp01(float value) {
     return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.0f;
 }
@@ -86,14 +97,13 @@ Texture AssimpMaterials::load(const std::string& reference, const std::string& f
     const std::string named = withoutBlenderPrefix(reference);
     const fs::path found = findTexture(file_, named);
     if (found.empty()) {
-        throw SceneError(field + " " + faultOfNamedFile(file_, named));
+        throw Unavailable(field + " " + faultOfNamedFile(file_, named));
     }
     inputs_.push_back(found.string());
     return readTexture(found, srgb);
 }
 
-std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initializer_list<aiTextureType> types,
-                                       bool srgb) {
+std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::span<const aiTextureType> types, bool srgb) {
     for (const aiTextureType type : types) {
         aiString path;
         std::array<aiTextureMapMode, 3> modes{};
@@ -108,10 +118,14 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::initiali
         if (isNew) {
             const std::string field =
                 file_.string() + ": material \"" + material.GetName().C_Str() + "\": texture \"" + reference + "\"";
-            scene_.textures.push_back(load(reference, field, srgb));
-            scene_.textures.back().wrapU = wrapU;
-            scene_.textures.back().wrapV = wrapV;
-            entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+            try {
+                scene_.textures.push_back(load(reference, field, srgb));
+                scene_.textures.back().wrapU = wrapU;
+                scene_.textures.back().wrapV = wrapV;
+                entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+            } catch (const Unavailable& reason) {
+                scene_.notes.push_back(std::string(reason.what()) + "; it is left out");
+            }
         }
         return entry->second;
     }
@@ -124,10 +138,8 @@ void AssimpMaterials::addEmission(const aiMaterial& material, Surface& surface) 
         const auto positive = [](float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1e6f) : 0.0f; };
         surface.emission = {positive(emission.r), positive(emission.g), positive(emission.b)};
     }
-    try {
-        surface.emissionTexture = texture(material, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE}, true);
-    } catch (const FileError& error) {
-        scene_.notes.push_back(std::string(error.what()) + "; it is left out");
+    surface.emissionTexture = texture(material, emissionTypes, true);
+    if (surface.emissionTexture == none && isTextured(material, emissionTypes)) {
         surface.emission = glm::vec3(0); // which alone would light up what the texture leaves dark
     }
     // As beside textures of colour, many exporters write black.
@@ -169,7 +181,7 @@ std::string AssimpMaterials::unreadUses() const {
 }
 
 void AssimpMaterials::addOpacity(const aiMaterial& material, Surface& surface) {
-    const std::uint32_t opacity = texture(material, {aiTextureType_OPACITY}, false);
+    const std::uint32_t opacity = texture(material, opacityTypes, false);
     if (opacity == none || surface.baseColorTexture == none) {
         return;
     }
@@ -203,14 +215,14 @@ std::uint32_t AssimpMaterials::surface(unsigned index, bool hasVertexColors) {
     if (index < source_.mNumMaterials) {
         const aiMaterial& material = *source_.mMaterials[index];
         surface.name = material.GetName().C_Str();
-        surface.baseColorTexture = texture(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, true);
-        surface.normalTexture = texture(material, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}, false);
+        surface.baseColorTexture = texture(material, colorTypes, true);
+        surface.normalTexture = texture(material, normalTypes, false);
         aiColor4D color(0.8f, 0.8f, 0.8f, 1);
         const bool hasColor = material.Get(AI_MATKEY_BASE_COLOR, color) == aiReturn_SUCCESS ||
                               material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS;
         // Many exporters write black beside a texture that they mean to be seen as it is.
         const bool black = color.r == 0 && color.g == 0 && color.b == 0;
-        surface.baseColor = surface.baseColorTexture != none && (black || !hasColor)
+        surface.baseColor = isTextured(material, colorTypes) && (black || !hasColor)
                                 ? glm::vec4(1)
                                 : glm::vec4(clamp01(color.r), clamp01(color.g), clamp01(color.b), 1);
         float number = 0;

@@ -6,6 +6,7 @@
 #include <assimp/scene.h>
 #include <map>
 #include <set>
+#include <span>
 
 namespace nacre::scene {
 
@@ -24,7 +25,8 @@ public:
     const std::vector<std::string>& inputs() const { return inputs_; }
 
 private:
-    std::uint32_t texture(const aiMaterial& material, std::initializer_list<aiTextureType> types, bool srgb);
+    /// none, with a note, for what does not exist or is in a format that is not read.
+    std::uint32_t texture(const aiMaterial& material, std::span<const aiTextureType> types, bool srgb);
     Texture load(const std::string& reference, const std::string& field, bool srgb);
     void addEmission(const aiMaterial& material, Surface& surface);
     void addOpacity(const aiMaterial& material, Surface& surface);

@@ -1,5 +1,6 @@
 #include "scene/gltf/gltf_material.hpp"
 
+#include "core/files/unavailable.hpp"
 #include "scene/gltf/gltf_scale_texture.hpp"
 #include "scene/surface_material.hpp"
 #include "scene/texture.hpp"
@@ -304,6 +305,20 @@ std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
     if (const auto found = textures_.find(key); found != textures_.end()) {
         return found->second;
     }
+    try {
+        Texture texture = decode(image, field, srgb);
+        texture.wrapU = sampling.wrapU;
+        texture.wrapV = sampling.wrapV;
+        texture.nearest = sampling.nearest;
+        scene_.textures.push_back(std::move(texture));
+    } catch (const Unavailable& reason) {
+        scene_.notes.push_back(std::string(reason.what()) + "; it is left out");
+        return textures_[key] = none;
+    }
+    return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+}
+
+Texture GltfMaterials::decode(const GltfImage& image, const std::string& field, bool srgb) {
     const std::uint64_t readBefore = file_.named->totalBytes();
     Bytes decoded;
     std::span<const std::uint8_t> bytes;
@@ -317,12 +332,8 @@ std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
     file_.budget->addInput(file_.named->totalBytes() - readBefore);
     Texture texture = decodeTexture(bytes, file_.path.string() + ": " + field, srgb);
     texture.name = image.name.empty() ? field : image.name;
-    texture.wrapU = sampling.wrapU;
-    texture.wrapV = sampling.wrapV;
-    texture.nearest = sampling.nearest;
     file_.budget->charge(texture);
-    scene_.textures.push_back(std::move(texture));
-    return textures_[key] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
+    return texture;
 }
 
 } // namespace nacre::scene

@@ -31,7 +31,10 @@ private:
     void setScale(Surface& surface, const GltfMedium& medium, const glm::vec3& factor, std::uint32_t colors);
     /// The image of a texture; -1, with a note, where nothing that is read supplies one.
     int imageOf(const tinygltf::Texture& texture, const std::string& field);
+    /// none, with a note, for what does not exist or is in a format that is not read.
     std::uint32_t texture(const GltfTextureUse& use, bool srgb);
+    /// Of images[image].
+    Texture decode(const GltfImage& image, const std::string& field, bool srgb);
     /// Of a texture of the scene, worked out once.
     const glm::vec4& mean(std::uint32_t texture);
 

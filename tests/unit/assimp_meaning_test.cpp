@@ -2,6 +2,7 @@
 #include "image/image.hpp"
 #include "image/image_file.hpp"
 #include "scene/import.hpp"
+#include "tests/support/processor_time.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -88,6 +89,52 @@ TEST_F(AssimpMeaning, TexturesThatAreNotReadAreNoted) {
 TEST_F(AssimpMeaning, MissingLibrariesAreNoted) {
     EXPECT_EQ(notesOf(loaded("l.obj", "mtllib gone.mtl\n" + corners + "usemtl a\nf 1 2 3\n")),
               Notes{"l.obj: names \"gone.mtl\", which is not there; its materials are left out"});
+}
+
+TEST_F(AssimpMeaning, MaterialsThatNoLibraryHasAreNoted) {
+    std::ofstream(folder / "some.mtl") << "newmtl b\nKd 1 0 0\n\tnewmtl  dark skin \n";
+    const std::string triangle = "f 1 2 3\n";
+    EXPECT_EQ(notesOf(loaded("u.obj", "mtllib some.mtl\n" + corners + "usemtl dark skin\n" + triangle)), Notes{});
+    EXPECT_EQ(notesOf(loaded("u.obj", "mtllib some.mtl\n" + corners + "usemtl a\n" + triangle)),
+              Notes{"u.obj: uses the material \"a\", which no library has; its faces are grey"});
+    EXPECT_EQ(
+        notesOf(loaded("u.obj", "mtllib some.mtl\n" + corners + "usemtl a\n" + triangle + "usemtl c\n" + triangle)),
+        Notes{"u.obj: uses the material \"a\" and 1 more, which no library has; its faces are grey"});
+}
+
+TEST_F(AssimpMeaning, ALineMayNameSeveralLibraries) {
+    std::ofstream(folder / "red.mtl") << "newmtl r\nKd 1 0 0\n";
+    std::ofstream(folder / "blue.mtl") << "newmtl b\nKd 0 0 1\n";
+    const Scene scene = loaded("two.obj", "mtllib red.mtl  blue.mtl\n" + corners + "usemtl b\nf 1 2 3\n");
+    EXPECT_EQ(scene.surfaces.at(scene.meshes.at(0).surface).baseColor, glm::vec4(0, 0, 1, 1));
+    EXPECT_EQ(notesOf(scene), Notes{});
+    std::ofstream(folder / "my red.mtl") << "newmtl r\nKd 1 0 0\n";
+    const Scene spaced = loaded("one.obj", "mtllib my red.mtl\n" + corners + "usemtl r\nf 1 2 3\n");
+    EXPECT_EQ(spaced.surfaces.at(spaced.meshes.at(0).surface).baseColor, glm::vec4(1, 0, 0, 1));
+}
+
+TEST_F(AssimpMeaning, AHundredThousandObjectsAreReadAsOne) {
+    constexpr int many = 100'000;
+    std::string text;
+    for (int i = 0; i < many; ++i) {
+        const std::string x = std::to_string(i);
+        text += "o part" + x + "\nv " + x + " 0 0\nv " + x + " 1 0\nv " + x + " 0 1\nf -3 -2 -1\n";
+    }
+    const double start = tests::processorSeconds();
+    const Scene scene = loaded("many.obj", text);
+    EXPECT_LT(tests::processorSeconds() - start, 10);
+    EXPECT_EQ(triangleCount(scene), many);
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(notesOf(scene).back(), "many.obj: has more than 20000 objects and groups, which are read as one");
+}
+
+TEST_F(AssimpMeaning, ATextureThatIsNotThereIsLeftOut) {
+    const Scene scene = square("newmtl a\nKd 0 0 0\nmap_Kd C:\\work\\gone.png\n");
+    const Surface& surface = scene.surfaces.at(scene.meshes.at(0).surface);
+    EXPECT_EQ(surface.baseColorTexture, none);
+    EXPECT_EQ(surface.baseColor, glm::vec4(1)) << "the black beside a texture is no colour";
+    EXPECT_EQ(notesOf(scene),
+              Notes{"m.obj: material \"a\": texture \"C:\\work\\gone.png\" does not exist; it is left out"});
 }
 
 TEST_F(AssimpMeaning, AByteOrderMarkHidesNothing) {

@@ -279,7 +279,11 @@ TEST(Gltf, SaysWhereATextureIsMissing) {
         << builder.error();
     builder.json["textures"] = {{{"source", 0}}};
     builder.json["images"] = {{{"uri", "absent.png"}}};
-    EXPECT_EQ(builder.error(), "test.glb: images[0].uri \"absent.png\" does not exist");
+    EXPECT_EQ(builder.load().notes,
+              std::vector<std::string>{"test.glb: images[0].uri \"absent.png\" does not exist; it is left out"});
+    builder.json["images"] = {{{"uri", "data:image/gif;base64,R0lGODlhAQABAAAAACw="}}};
+    EXPECT_EQ(builder.load().notes,
+              std::vector<std::string>{"test.glb: images[0]: is a GIF image, which is not read here; it is left out"});
     builder.json["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
     EXPECT_NE(builder.error().find("images[0]: is not a PNG"), std::string::npos) << builder.error();
 }
