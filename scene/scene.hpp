@@ -76,6 +76,10 @@ struct TextureCoordinates {
     bool operator==(const TextureCoordinates&) const = default;
 };
 
+/// [1] Bounds of a surface's scale in any place, as the effect has them (NacreScatterInfo::scale).
+inline constexpr float leastScale = 1e-3f;
+inline constexpr float largestScale = 1e3f;
+
 /// How a surface looks apart from its subsurface material.
 struct Surface {
     std::string name;
@@ -108,7 +112,8 @@ struct Surface {
     bool doubleSided = false;
     /// [≥ 0] mm; bounds the shadow-map thickness, or stands in for it. Negative: none authored.
     float thickness = -1;
-    /// Multiplies the lengths of the material's profile; with its texture [1e-3, 1e3] counts, values beyond as those.
+    /// Multiplies the lengths of the material's profile; with its texture [leastScale, largestScale] counts, values
+    /// beyond as those.
     float scale = 1;
     /// The transmission texture multiplies the material's strength, too: what does not enter leaves unscattered.
     bool transmissionSetsStrength = false;

@@ -28,10 +28,6 @@ struct ReleaseGeometry {
 
 namespace {
 
-/// [1] Bounds of SurfacePoint::scale, as the effect has them (NacreScatterInfo::scale).
-constexpr float leastScale = 1e-3f;
-constexpr float largestScale = 1e3f;
-
 void requireConsistent(const scene::Scene& scene) {
     for (const scene::Instance& instance : scene.instances) {
         if (instance.mesh >= scene.meshes.size()) {
@@ -96,22 +92,25 @@ struct Masked {
 
 namespace {
 
+/// A value between those of a triangle's corners.
+template <typename Value> Value between(const std::array<Value, 3>& values, float u, float v) {
+    return (1 - u - v) * values[0] + u * values[1] + v * values[2];
+}
+
 /// Before textures.
 glm::vec4 baseColorAt(const TracedInstance& instance, std::uint32_t triangle, float u, float v) {
     const auto [a, b, c] = instance.vertices(triangle);
     const std::vector<scene::Vertex>& vertices = instance.mesh->vertices;
-    const glm::vec4 color = (1 - u - v) * glm::vec4(vertices[a].color) + u * glm::vec4(vertices[b].color) +
-                            v * glm::vec4(vertices[c].color);
-    return instance.surface->baseColor * color / 65535.0f;
+    const std::array colors{glm::vec4(vertices[a].color), glm::vec4(vertices[b].color), glm::vec4(vertices[c].color)};
+    return instance.surface->baseColor * between(colors, u, v) / 65535.0f;
 }
 
 glm::vec2 textureCoordinates(const TracedInstance& instance, const scene::TextureCoordinates& coordinates,
                              std::uint32_t triangle, float u, float v) {
     const auto [a, b, c] = instance.vertices(triangle);
     const std::vector<scene::Vertex>& vertices = instance.mesh->vertices;
-    const glm::vec2 uv =
-        (1 - u - v) * coordinates.of(vertices[a]) + u * coordinates.of(vertices[b]) + v * coordinates.of(vertices[c]);
-    return glm::vec2(coordinates.transform * glm::vec3(uv, 1));
+    const std::array corners{coordinates.of(vertices[a]), coordinates.of(vertices[b]), coordinates.of(vertices[c])};
+    return glm::vec2(coordinates.transform * glm::vec3(between(corners, u, v), 1));
 }
 
 /// Alpha below which rays meet nothing. Of blended surfaces it is that of the renderer's shadow maps.
@@ -356,7 +355,7 @@ SurfacePoint Geometry::surfaceAt(const Hit& hit) const {
     if (surface.scaleTexture != scene::none) {
         point.scale *= texel(surface.scaleTexture, surface.scaleUv).r;
     }
-    point.scale = std::clamp(point.scale, leastScale, largestScale);
+    point.scale = std::clamp(point.scale, scene::leastScale, scene::largestScale);
     if (surface.transmissionTexture != scene::none) {
         point.shareFactor = texel(surface.transmissionTexture, surface.transmissionUv).a;
         point.strengthFactor = surface.transmissionSetsStrength ? point.shareFactor : 1;

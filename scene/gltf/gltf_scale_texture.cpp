@@ -9,8 +9,6 @@
 namespace nacre::scene {
 namespace {
 
-constexpr double leastScale = 1e-3;
-constexpr double largestScale = 1e3;
 /// Scales that are closer than this are one.
 constexpr double sameScale = 1.01;
 
@@ -36,7 +34,8 @@ std::optional<ScaleTexture> makeScaleTexture(const GltfMedium& medium, const glm
     }
     const auto scaleAt = [&](std::size_t texel) {
         const std::uint8_t* rgba = &colors.pixels[texel * 4];
-        return std::clamp(parts[0][rgba[0]] + parts[1][rgba[1]] + parts[2][rgba[2]], leastScale, largestScale);
+        return std::clamp(parts[0][rgba[0]] + parts[1][rgba[1]] + parts[2][rgba[2]], double{leastScale},
+                          double{largestScale});
     };
     const std::size_t count = colors.pixels.size() / 4;
     double least = largestScale;

@@ -2,6 +2,7 @@
 
 #include "renderer/readback.hpp"
 #include "renderer/vulkan/translate_errors.hpp"
+#include "view/loop/sample_place.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -20,33 +21,12 @@ constexpr std::uint64_t forever = ~std::uint64_t{0};
 constexpr double coarsestShare = 1.0 / 6;
 constexpr double finestCoarseShare = 0.75;
 
-/// Element `index` of the Halton sequence of `base`, [0, 1).
-float halton(std::uint32_t index, std::uint32_t base) {
-    float result = 0;
-    for (float digit = 1.0f / static_cast<float>(base); index > 0; index /= base, digit /= static_cast<float>(base)) {
-        result += digit * static_cast<float>(index % base);
-    }
-    return result;
-}
-
-/// SampleLook::pixelScale of ShownImage::Footprint.
-float pixelsPerMillimeter(const scene::Camera& camera, std::uint32_t height, float metersPerUnit) {
-    const float millimeters = 1000 * metersPerUnit;
-    return camera.projection == scene::ProjectionKind::Orthographic
-               ? -static_cast<float>(height) / (camera.orthographicHeight * millimeters)
-               : static_cast<float>(height) / (2 * std::tan(camera.verticalFieldOfView / 2) * millimeters);
-}
-
-/// The same of ShownImage::Regions.
-float pixelWidth(const scene::Camera& camera, std::uint32_t height) {
-    return camera.projection == scene::ProjectionKind::Orthographic
-               ? -camera.orthographicHeight / static_cast<float>(height)
-               : 2 * std::tan(camera.verticalFieldOfView / 2) / static_cast<float>(height);
-}
-
-/// Where in its pixel sample `index` of a picture lies: the first in the middle, the others spread evenly.
-glm::vec2 jitterOf(std::uint32_t index) {
-    return index == 0 ? glm::vec2(0) : glm::vec2(halton(index, 2) - 0.5f, halton(index, 3) - 0.5f);
+/// An extent with that share of the pixels of each axis.
+vk::Extent2D shrunk(vk::Extent2D extent, double share) {
+    const auto side = [share](std::uint32_t pixels) {
+        return std::max(1u, static_cast<std::uint32_t>(std::lround(pixels * share)));
+    };
+    return {side(extent.width), side(extent.height)};
 }
 
 /// A barrier of an image of the window.
@@ -66,11 +46,7 @@ PictureLoop::PictureLoop(renderer::Device& device, const scene::Scene& scene, co
       pool_(gpu_.device,
             {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = gpu_.queueFamily}),
       camera_(scene.cameras.at(0)),
-      materials_(scene.materials),
-      surfaces_(scene.surfaces),
-      lights_(scene.lights),
-      environmentIntensity_(scene.environment.intensity),
-      environmentRotation_(scene.environment.rotation) {
+      drawn_(scene) {
     for (SideSettings& side : sides_) {
         side.look.exposure = scene.exposure;
     }
@@ -105,7 +81,7 @@ std::unique_ptr<PictureLoop::Sized> PictureLoop::makeFrame(vk::Extent2D extent) 
     const renderer::FrameLimits limits{.framesInFlight = settings_.framesInFlight,
                                        .lights = settings_.lights,
                                        .shadowLayers = settings_.shadowLayers,
-                                       .secondSurfaces = !materials_.empty()};
+                                       .secondSurfaces = !drawn_.materials.empty()};
     return std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
 }
 
@@ -120,7 +96,8 @@ void PictureLoop::makeSlots() {
 }
 
 void PictureLoop::attachAll() {
-    accumulation_ = std::make_unique<Accumulation>(gpu_, full_->extent, materials_.size(), settings_.framesInFlight);
+    accumulation_ =
+        std::make_unique<Accumulation>(gpu_, full_->extent, drawn_.materials.size(), settings_.framesInFlight);
     full_->pass = accumulation_->attach(full_->frame.images());
     if (coarse_) {
         coarse_->pass = accumulation_->attach(coarse_->frame.images());
@@ -133,10 +110,7 @@ void PictureLoop::attachAll() {
 vk::Extent2D PictureLoop::coarseExtent() const {
     const double share = std::clamp(std::sqrt(settings_.tolerableMilliseconds * 1e3 / report_.totalMicroseconds),
                                     coarsestShare, finestCoarseShare);
-    const auto shrunk = [share](std::uint32_t side) {
-        return std::max(1u, static_cast<std::uint32_t>(std::lround(side * share)));
-    };
-    return {shrunk(settings_.width), shrunk(settings_.height)};
+    return shrunk(extent(), share);
 }
 
 /// The first frame draws the shadow maps; the second is as slow as those that follow.
@@ -146,10 +120,7 @@ void PictureLoop::makeCoarse() {
         return;
     }
     coarse_ = makeFrame(coarseExtent());
-    coarse_->frame.setMaterials(materials_);
-    coarse_->frame.setSurfaces(surfaces_);
-    coarse_->frame.setLights(lights_);
-    coarse_->frame.setEnvironment(environmentIntensity_, environmentRotation_);
+    drawn_.apply(coarse_->frame);
     coarse_->pass = accumulation_->attach(coarse_->frame.images());
 }
 
@@ -204,10 +175,7 @@ void PictureLoop::resize(std::uint32_t width, std::uint32_t height) {
     settings_.height = height;
     full_->extent = extent();
     if (coarse_) {
-        const auto shrunk = [share](std::uint32_t side) {
-            return std::max(1u, static_cast<std::uint32_t>(std::lround(side * share)));
-        };
-        coarse_->extent = vk::Extent2D{shrunk(width), shrunk(height)};
+        coarse_->extent = shrunk(extent(), share);
         coarse_->frame.resize(coarse_->extent.width, coarse_->extent.height);
     }
     translateErrors([&] { attachAll(); });
@@ -221,24 +189,24 @@ void PictureLoop::setCamera(const scene::Camera& camera) {
 
 void PictureLoop::setMaterials(const std::vector<Material>& materials) {
     forEachFrame([&](renderer::Frame& frame) { frame.setMaterials(materials); });
-    materials_ = materials;
+    drawn_.materials = materials;
     radii_.clear();
 }
 
 void PictureLoop::setSurfaces(std::span<const scene::Surface> surfaces) {
     forEachFrame([&](renderer::Frame& frame) { frame.setSurfaces(surfaces); });
-    surfaces_.assign(surfaces.begin(), surfaces.end());
+    drawn_.surfaces.assign(surfaces.begin(), surfaces.end());
 }
 
 void PictureLoop::setLights(std::span<const scene::Light> lights) {
     forEachFrame([&](renderer::Frame& frame) { frame.setLights(lights); });
-    lights_.assign(lights.begin(), lights.end());
+    drawn_.lights.assign(lights.begin(), lights.end());
 }
 
 void PictureLoop::setEnvironment(float intensity, float rotation) {
     forEachFrame([&](renderer::Frame& frame) { frame.setEnvironment(intensity, rotation); });
-    environmentIntensity_ = intensity;
-    environmentRotation_ = rotation;
+    drawn_.environmentIntensity = intensity;
+    drawn_.environmentRotation = rotation;
 }
 
 void PictureLoop::setSide(std::uint32_t side, const SideSettings& settings) {
@@ -426,13 +394,13 @@ renderer::SampleLook PictureLoop::prepareLook(const renderer::SampleLook& look, 
         constexpr float ofOneSurface = 6; // bank_constants.h: bankSurfaceSeparation, bankSecondSeparation
         constexpr float ofTwoSurfaces = 2;
         result.pixelScale = pixelWidth(camera_, height);
-        result.separation = std::ranges::any_of(materials_, asksForSecondSurfaces) ? ofTwoSurfaces : ofOneSurface;
+        result.separation = std::ranges::any_of(drawn_.materials, asksForSecondSurfaces) ? ofTwoSurfaces : ofOneSurface;
     }
     if (look.image != ShownImage::Footprint) {
         return result;
     }
     if (radii_.empty()) {
-        for (const Material& material : materials_) {
+        for (const Material& material : drawn_.materials) {
             const std::unique_ptr<Profile> profile = makeProfile(material);
             radii_.push_back(
                 static_cast<float>(std::max({profile->rmsRadius(0), profile->rmsRadius(1), profile->rmsRadius(2)})));

@@ -5,6 +5,7 @@
 #include "renderer/accumulation.hpp"
 #include "renderer/offscreen.hpp"
 #include "renderer/vulkan/swapchain.hpp"
+#include "view/loop/drawn_scene.hpp"
 
 #include <array>
 #include <functional>
@@ -148,12 +149,8 @@ private:
     std::uint32_t next_ = 0;
     std::uint64_t rebuilds_ = 0; ///< frames submitted since the window's images were made anew
     scene::Camera camera_;
-    std::vector<Material> materials_;
+    DrawnScene drawn_;
     std::vector<float> radii_; ///< of the materials, mm; made when they are first shown
-    std::vector<scene::Surface> surfaces_;
-    std::vector<scene::Light> lights_;
-    float environmentIntensity_;
-    float environmentRotation_;
     std::array<SideSettings, renderer::Accumulation::sideCount> sides_;
     renderer::ShowLook shown_;
     Image given_;
