@@ -208,7 +208,7 @@ void finish(const BakeOptions& options, const BakeResult& result) {
         writeText(options.json, makeReport(options, result));
     }
     if (options.json != "-") {
-        std::cout << printable(describeBake(options, result)) << std::flush;
+        std::cout << printableLines(describeBake(options, result)) << std::flush;
     }
     printNotes(result.notes);
 }
@@ -216,7 +216,8 @@ void finish(const BakeOptions& options, const BakeResult& result) {
 void stopInterrupted(const std::filesystem::path& checkpoint, const trace::Identity& identity,
                      const bake::ThicknessBake& bake) {
     bake::saveThickness(checkpoint, identity, bake.state());
-    std::cerr << "nacre: interrupted; the same command with --resume goes on from " << checkpoint.string() << '\n';
+    std::cerr << "nacre: interrupted; the same command with --resume goes on from " << printable(checkpoint.string())
+              << '\n';
     throwIfInterrupted();
 }
 

@@ -2,6 +2,7 @@
 #include "app/command.hpp"
 #include "app/interruption.hpp"
 #include "app/render_scene.hpp"
+#include "app/terminal_text.hpp"
 #include "bench/effect/context_times.hpp"
 #include "bench/effect/effect_suites.hpp"
 #include "bench/effect/shader_statistics.hpp"
@@ -56,7 +57,7 @@ void runSuite(const Suite& suite, const SuiteOptions& options) {
     requireRange(options.suite.seconds, 1, maxSeconds, "--seconds");
     const auto say = [](const std::string& line) {
         throwIfInterrupted();
-        std::cerr << line << std::endl;
+        std::cerr << printable(line) << std::endl;
     };
     bench::ResultsFolder folder(options.folder);
     checkWritable(options.folder / "results.json");
@@ -69,7 +70,8 @@ void runSuite(const Suite& suite, const SuiteOptions& options) {
     folder.publish(); // what has been measured is not thrown away
     const bench::Results results = bench::parseResults(json, "results.json"); // as `nacre bench report` reads them
     writeReport(results, options.folder);
-    std::cout << bench::conclude(results) << '\n' << (options.folder / "report.html").string() << '\n';
+    std::cout << printableLines(bench::conclude(results)) << '\n'
+              << printable((options.folder / "report.html").string()) << '\n';
 }
 
 void addSuite(CLI::App& bench, const Suite& suite) {
@@ -265,7 +267,7 @@ Examples:
     command->callback([files] {
         const bench::Comparison comparison =
             bench::compare(bench::loadResults(files->first), bench::loadResults(files->second));
-        std::cout << bench::formatComparison(comparison) << std::flush;
+        std::cout << printableLines(bench::formatComparison(comparison)) << std::flush;
         if (comparison.regressed()) {
             throw std::runtime_error(files->second.string() + ": slower or less accurate than " +
                                      files->first.string());
@@ -282,7 +284,7 @@ void addReport(CLI::App& bench) {
         const Path folder = file->has_parent_path() ? file->parent_path() : ".";
         const bench::Results results = bench::loadResults(*file);
         writeReport(results, folder);
-        std::cout << bench::conclude(results) << '\n';
+        std::cout << printableLines(bench::conclude(results)) << '\n';
     });
 }
 
@@ -291,7 +293,7 @@ void addMarkdown(CLI::App& bench) {
     command->footer("Examples:\n  nacre bench markdown nacre-bench-thesis/results.json > thesis.md");
     const auto file = std::make_shared<Path>();
     command->add_option("RESULTS", *file, "results.json")->required();
-    command->callback([file] { std::cout << bench::formatMarkdown(bench::loadResults(*file)); });
+    command->callback([file] { std::cout << printableLines(bench::formatMarkdown(bench::loadResults(*file))); });
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "app/compare_report.hpp"
 #include "app/compare_suite.hpp"
 #include "app/progress.hpp"
+#include "app/terminal_text.hpp"
 #include "image/false_color.hpp"
 #include "image/image_file.hpp"
 
@@ -76,7 +77,7 @@ void compare(const CompareOptions& options) {
         writeText(options.json, makeComparisonReport(options, inputs, comparison, bounds, range));
     }
     if (options.json != "-") {
-        std::cout << describeComparison(options, inputs, comparison);
+        std::cout << printableLines(describeComparison(options, inputs, comparison));
     }
     failOnBounds(options, bounds);
 }

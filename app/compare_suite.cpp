@@ -3,6 +3,7 @@
 #include "app/command.hpp"
 #include "app/interruption.hpp"
 #include "app/reference_progress.hpp"
+#include "app/terminal_text.hpp"
 #include "bench/accuracy/accuracy_html.hpp"
 #include "bench/accuracy/accuracy_json.hpp"
 #include "bench/accuracy/accuracy_markdown.hpp"
@@ -77,7 +78,7 @@ void run(const AccuracySuiteOptions& options) {
         std::cout << bench::formatAccuracyText(view) << std::endl;
     };
     writeResults(options.output, runAccuracy(device, plan, reporter));
-    std::cout << (options.output / "accuracy.html").string() << '\n';
+    std::cout << printable((options.output / "accuracy.html").string()) << '\n';
 }
 
 } // namespace

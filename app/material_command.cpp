@@ -163,7 +163,7 @@ void importMaterial(const ImportOptions& options) {
 void checkMaterials(const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) {
         const Material material = loadMaterial(file);
-        std::cout << file.string() << ": '" << printable(material.name) << "' is a valid material\n";
+        std::cout << printable(file.string()) << ": '" << printable(material.name) << "' is a valid material\n";
     }
 }
 

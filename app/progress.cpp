@@ -1,12 +1,13 @@
 #include "app/progress.hpp"
 
+#include "app/terminal_text.hpp"
+
 #include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <utility>
 
 namespace nacre::app {
 
@@ -37,7 +38,7 @@ void report(const std::stop_token& stop, const std::string& what) {
 
 } // namespace
 
-Progress::Progress(std::string what)
-    : thread_([what = std::move(what)](const std::stop_token& stop) { report(stop, what); }) {}
+Progress::Progress(std::string_view what)
+    : thread_([what = printable(what)](const std::stop_token& stop) { report(stop, what); }) {}
 
 } // namespace nacre::app

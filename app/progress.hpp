@@ -1,7 +1,7 @@
 // One line on standard error for work that takes longer than a second.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <thread>
 
 namespace nacre::app {
@@ -10,7 +10,7 @@ namespace nacre::app {
 /// and disappears at the end, elsewhere as one line.
 class Progress {
 public:
-    explicit Progress(std::string what);
+    explicit Progress(std::string_view what);
 
 private:
     std::jthread thread_;

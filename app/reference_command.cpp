@@ -6,6 +6,7 @@
 #include "app/reference_progress.hpp"
 #include "app/reference_report.hpp"
 #include "app/render_scene.hpp"
+#include "app/terminal_text.hpp"
 #include "image/image_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -109,7 +110,7 @@ Stopped runWithCheckpoints(const ReferenceOptions& options, reference::Reference
 
 void summarise(const ReferenceResult& result) {
     const auto [least, most] = sppOf(result.checkpoint);
-    std::cout << result.file.string() << ": " << result.scene << ", " << result.checkpoint.film.width << 'x'
+    std::cout << printable(result.file.string() + ": " + result.scene) << ", " << result.checkpoint.film.width << 'x'
               << result.checkpoint.film.height << ", " << least;
     if (most != least) {
         std::cout << " to " << most;
@@ -124,7 +125,7 @@ void summarise(const ReferenceResult& result) {
 
 void finish(const ReferenceResult& result, const std::filesystem::path& json) {
     for (const std::string& warning : result.warnings) {
-        std::cerr << "nacre: warning: " << warning << '\n';
+        std::cerr << "nacre: warning: " << printable(warning) << '\n';
     }
     if (!json.empty()) {
         writeText(json, makeReport(result));
@@ -166,7 +167,7 @@ void compute(ReferenceOptions options) {
         if (stopped == Stopped::Interrupted) {
             std::cout.flush();
             std::cerr << "nacre: interrupted; the same command with --resume goes on from "
-                      << trace::checkpointOf(options.output).string() << '\n';
+                      << printable(trace::checkpointOf(options.output).string()) << '\n';
             throwIfInterrupted();
         }
     });

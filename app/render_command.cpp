@@ -4,6 +4,7 @@
 #include "app/render_options.hpp"
 #include "app/render_scene.hpp"
 #include "app/report.hpp"
+#include "app/terminal_text.hpp"
 #include "image/image_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -42,7 +43,7 @@ std::vector<std::filesystem::path> outputsOf(const RenderOptions& options) {
 
 void summarise(const RenderOptions& options, const renderer::DeviceDescription& device,
                const renderer::FrameReport& frame) {
-    std::cout << options.output.string() << ": " << sceneName(options) << ", " << options.settings.width << 'x'
+    std::cout << printable(options.output.string() + ": " + sceneName(options)) << ", " << options.settings.width << 'x'
               << options.settings.height << ", " << frame.triangles << " triangles, " << frame.materials
               << " materials, " << frame.lights << " lights\n"
               << "frame " << std::lround(frame.totalMicroseconds) << " µs on " << device.name << ", scatter "

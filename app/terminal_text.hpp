@@ -10,4 +10,7 @@ namespace nacre::app {
 /// marks that turn the direction of writing (as \u202e), and bytes that are no UTF-8 (as \xff). Line breaks are spaces.
 std::string printable(std::string_view text);
 
+/// The same of a text whose line breaks are ours.
+std::string printableLines(std::string_view text);
+
 } // namespace nacre::app

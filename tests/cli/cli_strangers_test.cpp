@@ -77,6 +77,23 @@ TEST_F(StrangersTest, CannotReachTheTerminal) {
     expectHarmless(render({"scene.json"}).error);
 }
 
+TEST_F(StrangersTest, NamesOfFilesCannotEither) {
+    const std::string model = evil + ".gltf";
+    const std::string picture = evil + ".png";
+    writeModel(model, triangle);
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"render", model, "--size", "16x16", "-o", picture},
+             {"reference", model, "--material", "skin", "--size", "4x4", "--spp", "1", "-o", evil + ".exr"},
+             {"bake", "thickness", model, "--material", "skin", "-o", evil + ".ply"},
+             {"material", "show", "skin", "--json", evil + ".json"},
+             {"material", "check", evil + ".json"},
+             {"compare", picture, picture}}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << arguments[0] << ": " << outcome.error;
+        expectHarmless(outcome.output + outcome.error);
+    }
+}
+
 TEST_F(StrangersTest, SeeNoWordsOfTheStandardLibrary) {
     std::filesystem::create_symlink("loop.json", folder() / "loop.json");
     for (const Outcome& outcome :

@@ -1,6 +1,7 @@
 #include "view/window/compare_panel.hpp"
 
 #include "image/image_file.hpp"
+#include "view/window/plain_text.hpp"
 #include "view/window/shown_image.hpp"
 
 #include <QFileDialog>
@@ -38,7 +39,7 @@ ComparePanel::ComparePanel(QWidget* parent)
       divider_(new ParameterSlider("compare.divider", {.decimals = 3},
                                    "Where B begins, from left to right; it can be dragged in the picture, too")),
       restart_(new QPushButton("Start the &reference again")),
-      progress_(new QLabel),
+      progress_(makePlainLabel()),
       error_(new QLabel),
       map_(new QLabel) {
     mode_->setObjectName("compare.mode");

@@ -1,5 +1,7 @@
 #include "view/window/inspect_panel.hpp"
 
+#include "view/window/plain_text.hpp"
+
 #include <QVBoxLayout>
 
 namespace nacre::view {
@@ -7,8 +9,8 @@ namespace nacre::view {
 InspectPanel::InspectPanel(Document& document, QWidget* parent)
     : QWidget(parent),
       document_(document),
-      text_(new QLabel("Click a body in the picture: this says what it is, and why light scatters or comes through "
-                       "there, or why not.")),
+      text_(makePlainLabel("Click a body in the picture: this says what it is, and why light scatters or comes through "
+                           "there, or why not.")),
       give_(new QPushButton("&Give it the material shown")),
       take_(new QPushButton("&Take its material away")) {
     text_->setObjectName("inspect.text");

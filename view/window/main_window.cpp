@@ -5,13 +5,13 @@
 #include "view/window/inspect_panel.hpp"
 #include "view/window/look_panel.hpp"
 #include "view/window/material_panel.hpp"
+#include "view/window/plain_text.hpp"
 #include "view/window/recovery.hpp"
 #include "view/window/timing_panel.hpp"
 
 #include <QApplication>
 #include <QDeadlineTimer>
 #include <QDockWidget>
-#include <QMessageBox>
 #include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
@@ -346,7 +346,7 @@ void MainWindow::complain(const QString& sentence) {
     lastFault_ = sentence;
     statusBar()->showMessage(sentence, noteMilliseconds);
     if (!quiet_) {
-        QMessageBox::warning(this, "Nacre", sentence);
+        showPlainMessage(this, QMessageBox::Warning, sentence);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "view/window/look_panel.hpp"
 #include "view/window/main_window.hpp"
 #include "view/window/material_panel.hpp"
+#include "view/window/plain_text.hpp"
 #include "view/window/recovery.hpp"
 
 #include <QApplication>
@@ -17,7 +18,6 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenu>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QSettings>
 #include <QStatusBar>
@@ -127,10 +127,10 @@ void MainWindow::offerRecovered() {
     if (!found) {
         return;
     }
-    const bool wanted = quiet_ || QMessageBox::question(this, "Nacre",
-                                                        "The last session ended before its edits of " +
-                                                            (found->scene.isEmpty() ? "the gallery" : found->scene) +
-                                                            " were saved. Go on with them?") == QMessageBox::Yes;
+    const QString scene = found->scene.isEmpty() ? "the gallery" : found->scene;
+    const QString question = "The last session ended before its edits of " + scene + " were saved. Go on with them?";
+    const bool wanted = quiet_ || showPlainMessage(this, QMessageBox::Question, question,
+                                                   QMessageBox::Yes | QMessageBox::No) == QMessageBox::Yes;
     if (wanted && !recover(*found)) {
         return;
     }
@@ -157,8 +157,8 @@ bool MainWindow::mayForget() {
         return true;
     }
     const auto answer =
-        QMessageBox::question(this, "Nacre", document_.name() + " was edited. Save it as a scene file first?",
-                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+        showPlainMessage(this, QMessageBox::Question, document_.name() + " was edited. Save it as a scene file first?",
+                         QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
     return answer == QMessageBox::Discard || (answer == QMessageBox::Save && askAndSaveScene());
 }
 

@@ -4,6 +4,7 @@
 #include "nacre/presets.hpp"
 #include "view/model/material_structs.hpp"
 #include "view/model/recipes.hpp"
+#include "view/window/plain_text.hpp"
 #include "view/window/push_button.hpp"
 #include "view/window/recipe_dialog.hpp"
 #include "view/window/shown_image.hpp"
@@ -47,7 +48,7 @@ MaterialPanel::MaterialPanel(Document& document, QWidget* parent)
       document_(document),
       materials_(new QComboBox),
       presets_(new QComboBox),
-      source_(new QLabel),
+      source_(makePlainLabel()),
       layers_(new LayerList(document)),
       layer_(new ParameterPanel<Layer>(layerParameters())),
       parameters_(new ParameterPanel<Material>(materialParameters())),
