@@ -128,20 +128,24 @@ def lid_edge(triangles, u, upper):
     return outside
 
 
-def lash_strip(triangles, upper, length, columns):
-    first, last = math.radians(-40), math.radians(55)  # fewer lashes at the inner corner
-    angle = lambda s: first + (last - first) * s
-    edges = [lid_edge(triangles, angle(i / columns), upper) for i in range(columns + 1)]
+def lash_strip(triangles, upper, length, rows):
+    columns = 32
+    inner, outer = math.radians(-40), math.radians(55)  # no lashes in the inner corner
+    angles = [inner + (outer - inner) * i / columns for i in range(columns + 1)]
+    edges = [lid_edge(triangles, u, upper) for u in angles]
 
     def place(s, t):
-        u, edge = angle(s), edges[round(s * columns)]
+        u, edge = angles[round(s * columns)], edges[round(s * columns)]
         root = on_ball(BALL + 1.2, u, edge)
         out = normalize(on_ball(1, u * 1.25, edge))
         up = (0, 1 if upper else -1, 0)
         reach = length * t * (1 - (0.5 if s < 0.5 else 0.25) * (2 * s - 1)**2)
-        curl = 0.75 * t if upper else 0.5 * t
+        curl = 0.6 * t if upper else 0.5 * t
         return add(add(root, out, reach * (1 - 0.45 * t)), up, reach * curl)
-    return place
+
+    strip = Mesh()
+    strip.grid(columns, rows, place, uv=lambda s, t: (2.5 * s, 1 - t))
+    return strip
 
 
 def brow(triangles):
@@ -217,7 +221,7 @@ def hair_texture(width, height, hairs, seed, thickness, lean):
                 off = abs((s - root - slant * t * t + 0.5) % 1 - 0.5) * width
                 thick = thickness * (1 - t / length)**0.6
                 alpha = max(alpha, min(max(thick + 0.5 - off, 0), 1))
-        return [0.09, 0.06, 0.05, alpha]
+        return [0.07, 0.05, 0.04, alpha]
     return png(width, height, pixel)
 
 
@@ -226,7 +230,7 @@ def brow_texture(width, height, hairs, seed):
     dice = random.Random(seed)
     alpha = [0.0] * (width * height)
     for _ in range(hairs):
-        s, t = dice.random(), 0.1 + 0.55 * dice.random()
+        s, t = 0.92 * dice.random(), 0.1 + 0.55 * dice.random()
         # Upright at the nose, lying at the temple.
         angle = math.radians(62 - 52 * min(s * 1.6, 1) + 18 * (dice.random() - 0.5) - 20 * (t - 0.35))
         length, thick = height * (0.38 + 0.2 * dice.random()), 1.5 + 0.5 * dice.random()
@@ -320,7 +324,7 @@ def make(skin_path, path):
     sclera = file.material("sclera", [1, 1, 1, 1], 0.15, file.texture(sclera_texture()))
     iris = file.material("iris", [1, 1, 1, 1], 0.6, file.texture(iris_texture()))
     cornea = file.material("cornea", [0.1, 0.1, 0.1, 0.04], 0.06, alphaMode="BLEND")
-    lashes = file.material("upper lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(256, 64, 30, 7, 2.0, 0.16)), alphaMode="BLEND", doubleSided=True)
+    lashes = file.material("upper lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(256, 64, 32, 7, 2.3, 0.16)), alphaMode="BLEND", doubleSided=True)
     lower = file.material("lower lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(256, 64, 20, 11, 2.0, 0.14)), alphaMode="MASK", alphaCutoff=0.4,
                           doubleSided=True)
     brows = file.material("brows", [1, 1, 1, 1], 0.7, file.texture(brow_texture(512, 128, 200, 13)), alphaMode="MASK", alphaCutoff=0.4,
@@ -354,10 +358,8 @@ def make(skin_path, path):
         return (CORNEA * math.sin(polar) * math.cos(angle), CORNEA * math.sin(polar) * math.sin(angle), center + CORNEA * math.cos(polar))
     dome.grid(32, 10, cornea_place, wraps=True)
 
-    upper_lashes, lower_lashes = Mesh(), Mesh()
     around_eye = head.near(EYE, 20)
-    upper_lashes.grid(32, 6, lash_strip(around_eye, True, 8.5, 32), uv=lambda s, t: (2.5 * s, 1 - t))
-    lower_lashes.grid(32, 4, lash_strip(around_eye, False, 4.5, 32), uv=lambda s, t: (2.5 * s, 1 - t))
+    upper_lashes, lower_lashes = lash_strip(around_eye, True, 8, 6), lash_strip(around_eye, False, 4.5, 4)
 
     file.node("head", file.mesh("head", head, skin))
     parts = {"eye": (white, sclera), "iris": (disc, iris), "cornea": (dome, cornea), "upper lashes": (upper_lashes, lashes),

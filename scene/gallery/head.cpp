@@ -117,6 +117,7 @@ struct EyePlace {
     float across() const { return outward / (outward > 0 ? 1.11f : 1.0f); }
 };
 
+/// The line through both corners [rad upwards]: the outer one is higher.
 float cornerLine(float across) {
     return 0.07f * across;
 }
@@ -138,7 +139,8 @@ float aboveEdge(const EyePlace& place, float (*edge)(float)) {
     return place.radius * (place.up - edge(w)) / std::sqrt(1 + slope * slope);
 }
 
-/// Between the lids, whose rims look towards the middle of the ball; deep enough for the iris.
+/// The opening between the lids is a cone from the middle of the ball, so that their rims stand on the ball. It ends
+/// behind the iris, and in front of the lids, or it would cut the side of the nose.
 float openingDistance(const EyePlace& place) {
     const float between = smoothMaximum(aboveEdge(place, upperEdge), -aboveEdge(place, lowerEdge), 1);
     return std::max(smoothMaximum(between, place.radius - eyeRadius - 4.5f, 2), eyeRadius - 4 - place.radius);
@@ -156,7 +158,7 @@ void addOpenEye(ImplicitSurface& head, float side) {
     });
     head.carve(boundsOf({middle}, eyeRadius + 6), 1.2f,
                [side](const glm::vec3& p) { return openingDistance(EyePlace(p, side)); });
-    // The caruncle.
+    // The caruncle, in the inner corner.
     addEllipsoid(head, middle + eyeRadius * glm::vec3(side * -0.735f, -0.07f, 0.67f), {1.5f, 1.3f, 1.3f}, 1.6f);
 }
 

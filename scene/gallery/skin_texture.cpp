@@ -53,6 +53,12 @@ constexpr Line lines[] = {
      1.8f,
      {1.05f, 0.70f, 0.68f},
      0},
+    {{{{23.5f, 45.8f, 87}, {24.5f, 45.6f, 87}, {25.5f, 45.4f, 86}, {26.5f, 45.3f, 85}}},
+     1.2f,
+     0.6f,
+     1.6f,
+     {0.70f, 0.50f, 0.48f},
+     0},
     {{{{0, 51, 99}, {6, 52, 99}, {14, 49.5f, 95}, {24, 46, 87}}}, 3.4f, 0.6f, 1.4f, {0.84f, 0.56f, 0.55f}, 0},
     {{{{0, 41.8f, 99}, {8, 42.3f, 98}, {16, 44, 93.5f}, {24, 46, 87}}}, 4.2f, 0.6f, 1.4f, {0.86f, 0.58f, 0.57f}, 0},
     {{{{0, 46.6f, 100}, {7, 47.1f, 99}, {15, 46.6f, 95}, {24.5f, 45.6f, 87}}},
@@ -69,11 +75,10 @@ constexpr Line lines[] = {
      0.3f},
     {{{{11, 131.5f, 90}, {24, 138, 85}, {38, 140, 77}, {52, 132.5f, 60}}}, 3.6f, 1, 1.8f, {0.34f, 0.26f, 0.22f}, 0.55f},
 };
-constexpr std::span<const Line> allLines(lines);
-/// The inner corners of the lids and the lips: brows and lashes are models.
-constexpr std::span<const Line> openEyedLines = allLines.first(4);
+/// The corners of eyes and mouth, and the lips: brows and lashes are models.
+constexpr std::span<const Line> openEyedLines = std::span<const Line>(lines).first(5);
 /// Lips, lashes and brows.
-constexpr std::span<const Line> closedEyedLines = allLines.subspan(1);
+constexpr std::span<const Line> closedEyedLines = std::span<const Line>(lines).subspan(2);
 
 /// The patches and some lines where they lie on the map.
 struct Chart {
@@ -82,14 +87,14 @@ struct Chart {
         glm::vec2 low, high; ///< outside of it the line has no effect
     };
     std::vector<glm::vec2> patchPlaces;
-    std::span<const Line> lines;
-    std::vector<MappedLine> linePlaces;
-    float finest; ///< [mm] finer noise is left out
+    std::span<const Line> painted;
+    std::vector<MappedLine> linePlaces; ///< one for each of them
+    float finest;                       ///< [mm] finer noise is left out
 
-    Chart(std::span<const Line> painted, float finestNoise) : lines(painted), finest(finestNoise) {
+    Chart(std::span<const Line> paintedLines, float finestNoise) : painted(paintedLines), finest(finestNoise) {
         for (const Patch& patch : patches)
             patchPlaces.push_back(onMap(patch.place));
-        for (const Line& line : lines) {
+        for (const Line& line : painted) {
             MappedLine mapped{{}, glm::vec2(1e9f), glm::vec2(-1e9f)};
             const float reach = std::max(line.begin, line.end) + line.softness;
             for (std::size_t i = 0; i < line.points.size(); ++i) {
@@ -139,8 +144,9 @@ glm::vec3 skinColor(const glm::vec2& q, const Chart& chart) {
         std::max(smoothStep(-6, 10, hairline), smoothStep(118, 128, glm::length(q)) * smoothStep(-70, -30, q.y));
     const float stubble = 0.85f + 0.15f * grain(0.9f, 5);
     color *= glm::mix(glm::vec3(1), glm::vec3(0.80f, 0.83f, 0.88f) * stubble, 0.8f * scalp);
-    for (std::size_t i = 0; i < chart.lines.size(); ++i)
-        color *= glm::mix(glm::vec3(1), chart.lines[i].tint, lineCover(folded, chart.lines[i], chart.linePlaces[i]));
+    for (std::size_t i = 0; i < chart.painted.size(); ++i)
+        color *=
+            glm::mix(glm::vec3(1), chart.painted[i].tint, lineCover(folded, chart.painted[i], chart.linePlaces[i]));
     return color;
 }
 
