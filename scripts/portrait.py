@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Makes scenes/portrait.glb: a head with skin, eyes that have a white, an iris and a clear cornea, lashes and brows.
 
-Usage: portrait.py [OUTPUT]. Needs Python 3 and nothing beside its standard library. Lengths are in mm here, and in metres in the
-file. The cornea and the upper lashes are blended, the lower lashes and the brows are masked.
+Usage: portrait.py SKIN [OUTPUT]. SKIN is the file that the program portrait_skin writes (cmake --build build/release --target
+portrait_skin; build/release/scene/gallery/portrait_skin SKIN). Needs Python 3 and nothing beside its standard library. Lengths
+are in mm here, and in metres in the file. The cornea and the upper lashes are blended, the lower lashes and the brows are masked.
 """
 import json
 import math
@@ -12,11 +13,10 @@ import struct
 import sys
 import zlib
 
-HEAD = (74.0, 112.0, 92.0)  # half axes
-EYE = (31.0, 4.0, 69.0)  # the centre of the right one (on the left in the picture: x < 0)
+EYE = (32.0, 115.0, 73.0)  # the centre of the left one; this and the ball's radius as in scene/gallery/head.cpp
 BALL, IRIS, PUPIL = 12.0, 5.9, 2.0  # radii
 CORNEA = 7.8  # radius of curvature
-LID = 12.9  # radius of the lids around the ball's centre
+SKIN = (0.8, 0.6, 0.5)  # the material's colour, which the vertices' multiply
 
 
 def add(a, b, scale=1.0):
@@ -30,6 +30,10 @@ def normalize(v):
 
 def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
 
 
 class Mesh:
@@ -62,48 +66,49 @@ class Mesh:
         return [normalize(sums.get(key(p), (0, 0, 1))) for p in self.positions]
 
 
-def bump(x, y, cx, cy, rx, ry):
-    return math.exp(-(((x - cx) / rx)**2 + ((y - cy) / ry)**2))
+class Skin(Mesh):
+    """The mesh that portrait_skin wrote."""
+
+    def __init__(self, path):
+        super().__init__()
+        with open(path, "rb") as file:
+            header, _, data = file.read().partition(b"end_header\n")
+        vertices, faces = (int(line.split()[-1]) for line in header.split(b"\n") if line.startswith(b"element"))
+        self.stored_normals = []
+        for row in struct.iter_unpack("<9f", data[:36 * vertices]):
+            self.positions.append(row[:3])
+            self.stored_normals.append(row[3:6])
+            self.colors.append(tuple(round(255 * min(c / whole, 1)) for c, whole in zip(row[6:], SKIN)))
+        for row in struct.iter_unpack("<B3I", data[36 * vertices:36 * vertices + 13 * faces]):
+            self.indices += row[1:]
+
+    def normals(self):
+        return self.stored_normals
+
+    def near(self, center, radius):
+        """The triangles with a corner that near."""
+        inside = [dot(d, d) < radius * radius for d in (add(p, center, -1) for p in self.positions)]
+        corners = (self.indices[i:i + 3] for i in range(0, len(self.indices), 3))
+        return [tuple(self.positions[k] for k in three) for three in corners if any(inside[k] for k in three)]
 
 
-def relief(x, y):
-    """What the face adds to the ellipsoid, along the way out."""
-    side = abs(x)
-    value = -12.0 * bump(side, y, EYE[0] - 1, EYE[1], 19, 15)  # sockets
-    value += 5.0 * bump(side, y, 26, 21, 24, 8)  # brow
-    ridge = min(max((20.0 - y) / 52.0, 0.0), 1.0)  # from the root of the nose to its tip
-    value += (4.0 + 19.0 * ridge**1.4) * bump(x, 0, 0, 0, 8.0 + 3.0 * ridge, 1) * (1 if y > -32 else math.exp(-((y + 32) / 5)**2)) * (
-        1 / (1 + math.exp((y - 18) / 4)))
-    value += 7.0 * bump(side, y, 10.5, -30, 6.5, 6)  # wings
-    value += 5.0 * bump(side, y, 42, -22, 18, 16)  # cheeks
-    value += 5.0 * bump(x, y, 0, -51, 20, 5) + 5.5 * bump(x, y, 0, -61, 16, 5)  # lips
-    value -= 5.0 * bump(x, y, 0, -56, 22, 2.4)  # between them
-    value += 7.0 * bump(x, y, 0, -88, 20, 14)  # chin
-    value -= 2.0 * bump(x, y, 0, -43, 3, 6)
-    return value
-
-
-def face(s, t):
-    # More of the grid where the face is.
-    a = 2 * math.pi * s
-    longitude = a + 0.75 * math.sin(a)  # 0 at the back
-    b = math.pi * (t - 0.5)
-    latitude = b - 0.25 * math.sin(2 * b)
-    d = (-math.sin(longitude) * math.cos(latitude), math.sin(latitude), -math.cos(longitude) * math.cos(latitude))
-    p = tuple(c * h for c, h in zip(d, HEAD))
-    if p[1] < 0:  # the jaw is narrower
-        p = (p[0] * (1 - 0.22 * (p[1] / HEAD[1])**2), p[1], p[2])
-    front = 1 / (1 + math.exp(-(p[2] - 25) / 8))
-    return add(p, normalize((d[0] * 0.6, d[1] * 0.4, d[2])), relief(p[0], p[1]) * front)
-
-
-def skin_color(p):
-    x, y, z = p
-    front = 1.0 if z > 20 else 0.0
-    red = 0.75 * front * (bump(x, y, 0, -51.5, 20, 4) + bump(x, y, 0, -60.5, 16, 4.5)) * (1 if abs(x) < 23 else 0.3)
-    red += 0.25 * front * (bump(abs(x), y, 40, -22, 16, 14) + bump(x, y, 0, -30, 12, 9))
-    red = min(red, 0.9)
-    return tuple(round(255 * c) for c in (1 - 0.12 * red, 1 - 0.5 * red, 1 - 0.42 * red))
+def outermost(triangles, origin, direction):
+    """How far along the ray the last of the triangles lies, in lengths of `direction`; 0 where there is none."""
+    last = 0.0
+    for a, b, c in triangles:
+        ab, ac, from_a = add(b, a, -1), add(c, a, -1), add(origin, a, -1)
+        across = cross(direction, ac)
+        volume = dot(ab, across)
+        if abs(volume) < 1e-12:
+            continue
+        u = dot(from_a, across) / volume
+        if u < 0 or u > 1:
+            continue
+        around = cross(from_a, ab)
+        v = dot(direction, around) / volume
+        if v >= 0 and u + v <= 1:
+            last = max(last, dot(ac, around) / volume)
+    return last
 
 
 def on_ball(radius, u, v):
@@ -111,49 +116,48 @@ def on_ball(radius, u, v):
     return (radius * math.sin(u) * math.cos(v), radius * math.sin(v), radius * math.cos(u) * math.cos(v))
 
 
-def lid_edge(u, upper):
-    """Of the opening, in radians."""
-    half = math.radians(53)
-    open_share = max(1 - (u / half)**2, 0.0)
-    return math.radians(23) * open_share**0.75 if upper else -math.radians(26) * open_share**0.8
+def lid_edge(triangles, u, upper):
+    """Where the lid rises from the ball, in radians."""
+    inside, outside = 0.0, math.radians(45 if upper else -45)
+    for _ in range(10):
+        middle = 0.5 * (inside + outside)
+        if outermost(triangles, EYE, on_ball(1, u, middle)) < BALL + 1.3:
+            inside = middle
+        else:
+            outside = middle
+    return outside
 
 
-def lid(upper):
+def lash_strip(triangles, upper, length, rows):
+    columns = 32
+    inner, outer = math.radians(-40), math.radians(55)  # no lashes in the inner corner
+    angles = [inner + (outer - inner) * i / columns for i in range(columns + 1)]
+    edges = [lid_edge(triangles, u, upper) for u in angles]
+
     def place(s, t):
-        u = math.radians(90) * (2 * s - 1)
-        edge = lid_edge(u, upper)
-        far = math.radians(78 if upper else -78)
-        v = edge + (far - edge) * max(t - 0.12, 0) / 0.88
-        # Rounded at the edge; outwards it falls back behind the face.
-        round_edge = min(t / 0.12, 1.0)
-        radius = BALL + 0.15 + (LID - BALL) * math.sin(0.5 * math.pi * round_edge) + 0.9 * max(t - 0.12, 0)
-        if upper:
-            radius -= 0.9 * math.exp(-((t - 0.42) / 0.07)**2)  # the fold
-        return on_ball(radius, u, v)
-    return place
-
-
-def lash_strip(upper, length):
-    def place(s, t):
-        u = math.radians(46) * (2 * s - 1)
-        edge = lid_edge(u, upper)
-        root = on_ball(LID - 0.1, u, edge + math.radians(1.5 if upper else -1.5))
+        u, edge = angles[round(s * columns)], edges[round(s * columns)]
+        root = on_ball(BALL + 1.2, u, edge)
         out = normalize(on_ball(1, u * 1.25, edge))
         up = (0, 1 if upper else -1, 0)
-        reach = length * t * (1 - 0.35 * (2 * s - 1)**2)
-        curl = 0.75 * t if upper else 0.5 * t
+        reach = length * t * (1 - (0.5 if s < 0.5 else 0.25) * (2 * s - 1)**2)
+        curl = 0.6 * t if upper else 0.5 * t
         return add(add(root, out, reach * (1 - 0.45 * t)), up, reach * curl)
-    return place
+
+    strip = Mesh()
+    strip.grid(columns, rows, place, uv=lambda s, t: (2.5 * s, 1 - t))
+    return strip
 
 
-def brow(side):
+def brow(triangles):
+    line = ((10, 131, 90), (24, 137.5, 85), (38, 139.5, 77), (53, 132, 60))
+
     def place(s, t):
-        x = side * (13 + 34 * s)
-        y = EYE[1] + 17 + 7 * math.sin(math.pi * min(s * 1.15, 1) * 0.62) + (t - 0.5) * 9 * (1 - 0.6 * s**2)
-        p = (x / HEAD[0], y / HEAD[1])
-        z = HEAD[2] * math.sqrt(max(1 - p[0]**2 - p[1]**2, 0.05))
-        n = normalize((x / HEAD[0]**2, y / HEAD[1]**2, z / HEAD[2]**2))
-        return add((x, y, z), normalize((n[0] * 0.6, n[1] * 0.4, n[2])), relief(x, y) + 0.8)
+        # A Bézier curve through the ends; the skin is where a ray from the head's axis through it goes out.
+        weights = ((1 - s)**3, 3 * s * (1 - s)**2, 3 * s * s * (1 - s), s**3)
+        x, y, z = (sum(w * p[i] for w, p in zip(weights, line)) for i in range(3))
+        axis = (0, y + (t - 0.5) * 9 * (1 - 0.6 * s**2), 20)
+        direction = normalize((x, 0, z - axis[2]))
+        return add(axis, direction, outermost(triangles, axis, direction) + 0.2 + 0.8 * t)
     return place
 
 
@@ -207,7 +211,7 @@ def sclera_texture(size=96):
 
 def hair_texture(width, height, hairs, seed, thickness, lean):
     dice = random.Random(seed)
-    strands = [(dice.random(), lean * (0.6 + 0.8 * dice.random()) * dice.choice((1, 1, -0.3)), 0.7 + 0.3 * dice.random()) for _ in range(hairs)]
+    strands = [((i + 0.8 * dice.random()) / hairs, lean * (0.6 + 0.8 * dice.random()) * dice.choice((1, 1, -0.3)), 0.7 + 0.3 * dice.random()) for i in range(hairs)]
 
     def pixel(x, y):
         s, t = (x + 0.5) / width, 1 - (y + 0.5) / height  # t from the root up
@@ -217,8 +221,31 @@ def hair_texture(width, height, hairs, seed, thickness, lean):
                 off = abs((s - root - slant * t * t + 0.5) % 1 - 0.5) * width
                 thick = thickness * (1 - t / length)**0.6
                 alpha = max(alpha, min(max(thick + 0.5 - off, 0), 1))
-        return [0.09, 0.06, 0.05, alpha]
+        return [0.07, 0.05, 0.04, alpha]
     return png(width, height, pixel)
+
+
+def brow_texture(width, height, hairs, seed):
+    """Hairs that start all over and lie down to the temple: s of the texture from the nose on, t up."""
+    dice = random.Random(seed)
+    alpha = [0.0] * (width * height)
+    for _ in range(hairs):
+        s, t = 0.92 * dice.random(), 0.1 + 0.55 * dice.random()
+        # Upright at the nose, lying at the temple.
+        angle = math.radians(62 - 52 * min(s * 1.6, 1) + 18 * (dice.random() - 0.5) - 20 * (t - 0.35))
+        length, thick = height * (0.38 + 0.2 * dice.random()), 1.5 + 0.5 * dice.random()
+        bend = -0.7 * dice.random()
+        x, y, steps = s * width, (1 - t) * height, 60
+        for i in range(steps):
+            along = i / steps
+            x += length / steps * math.cos(angle + bend * along)
+            y -= length / steps * math.sin(angle + bend * along)
+            half = thick * (1 - along)**0.5
+            for row in range(max(int(y - half), 0), min(int(y + half) + 2, height)):
+                for column in range(max(int(x - half), 0), min(int(x + half) + 2, width)):
+                    cover = half + 0.5 - math.hypot(column + 0.5 - x, row + 0.5 - y)
+                    alpha[row * width + column] = max(alpha[row * width + column], min(max(cover, 0), 1))
+    return png(width, height, lambda x, y: [0.22, 0.15, 0.11, alpha[y * width + x]])
 
 
 class File:
@@ -291,24 +318,19 @@ class File:
             file.write(struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks)
 
 
-def make(path):
+def make(skin_path, path):
     file = File()
-    skin = file.material("skin", [0.8, 0.6, 0.5, 1], 0.5)
+    skin = file.material("skin", [*SKIN, 1], 0.5)
     sclera = file.material("sclera", [1, 1, 1, 1], 0.15, file.texture(sclera_texture()))
     iris = file.material("iris", [1, 1, 1, 1], 0.6, file.texture(iris_texture()))
     cornea = file.material("cornea", [0.1, 0.1, 0.1, 0.04], 0.06, alphaMode="BLEND")
-    lashes = file.material("upper lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(128, 64, 26, 7, 1.5, 0.16)), alphaMode="BLEND", doubleSided=True)
-    lower = file.material("lower lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(128, 64, 14, 11, 1.6, 0.12)), alphaMode="MASK", alphaCutoff=0.4,
+    lashes = file.material("upper lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(256, 64, 32, 7, 2.3, 0.16)), alphaMode="BLEND", doubleSided=True)
+    lower = file.material("lower lashes", [1, 1, 1, 1], 0.6, file.texture(hair_texture(256, 64, 20, 11, 2.0, 0.14)), alphaMode="MASK", alphaCutoff=0.4,
                           doubleSided=True)
-    brows = file.material("brows", [1, 1, 1, 1], 0.7, file.texture(hair_texture(256, 48, 110, 13, 1.2, 0.14)), alphaMode="MASK", alphaCutoff=0.4,
+    brows = file.material("brows", [1, 1, 1, 1], 0.7, file.texture(brow_texture(512, 128, 200, 13)), alphaMode="MASK", alphaCutoff=0.4,
                           doubleSided=True)
 
-    head = Mesh()
-    head.grid(80, 80, face, color=skin_color, wraps=True)
-    lids = Mesh()
-    lids.grid(40, 16, lid(True))
-    lower_lid = lid(False)
-    lids.grid(40, 16, lambda s, t: lower_lid(1 - s, t))  # turned, so that it looks outwards
+    head = Skin(skin_path)
 
     white = Mesh()
     rim = math.asin(IRIS / BALL)
@@ -336,19 +358,18 @@ def make(path):
         return (CORNEA * math.sin(polar) * math.cos(angle), CORNEA * math.sin(polar) * math.sin(angle), center + CORNEA * math.cos(polar))
     dome.grid(32, 10, cornea_place, wraps=True)
 
-    upper_lashes, lower_lashes = Mesh(), Mesh()
-    upper_lashes.grid(32, 6, lash_strip(True, 8.5), uv=lambda s, t: (2.5 * s, 1 - t))
-    lower_lashes.grid(32, 4, lash_strip(False, 4.5), uv=lambda s, t: (2.5 * s, 1 - t))
+    around_eye = head.near(EYE, 20)
+    upper_lashes, lower_lashes = lash_strip(around_eye, True, 8, 6), lash_strip(around_eye, False, 4.5, 4)
 
     file.node("head", file.mesh("head", head, skin))
-    parts = {"lids": (lids, skin), "eye": (white, sclera), "iris": (disc, iris), "cornea": (dome, cornea), "upper lashes": (upper_lashes, lashes),
+    parts = {"eye": (white, sclera), "iris": (disc, iris), "cornea": (dome, cornea), "upper lashes": (upper_lashes, lashes),
              "lower lashes": (lower_lashes, lower)}
     for name, (mesh, material) in parts.items():
         index = file.mesh(name, mesh, material)
         for side in (-1, 1):
             file.node(("right " if side < 0 else "left ") + name, index, (side * EYE[0], EYE[1], EYE[2]), mirrored=side < 0)
     hairs = Mesh()
-    hairs.grid(24, 4, brow(1), uv=lambda s, t: (1.0 * s, 1 - t))
+    hairs.grid(24, 4, brow(head.near((32, 135, 75), 35)), uv=lambda s, t: (1.0 * s, 1 - t))
     index = file.mesh("brow", hairs, brows)
     for side in (-1, 1):
         file.node(("right " if side < 0 else "left ") + "brow", index, mirrored=side < 0)
@@ -356,4 +377,6 @@ def make(path):
 
 
 if __name__ == "__main__":
-    make(sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + "/scenes/portrait.glb")
+    if len(sys.argv) not in (2, 3):
+        sys.exit("portrait.py: needs the file that portrait_skin writes, and may have the name of the file to write")
+    make(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + "/scenes/portrait.glb")

@@ -4,6 +4,8 @@
 
 #include "scene/gallery/implicit_surface.hpp"
 
+#include <span>
+
 namespace nacre::scene::gallery {
 
 struct Body {
@@ -13,6 +15,8 @@ struct Body {
 
 /// A bust, 306 mm tall, with closed eyes and ears 2 mm thin.
 Body makeHead(std::size_t triangles);
+/// The same bust with open eyes, for balls of 12 mm around (±32, 115, 73); its skin is smooth.
+Body makeOpenEyedHead(std::size_t triangles);
 /// A crouching dragon, wings spread; membranes and fins 2 to 3 mm thin.
 Body makeDragon(std::size_t triangles);
 /// The word NACRE, extruded and bevelled.
@@ -27,6 +31,8 @@ Body makePlant(std::size_t triangles);
 glm::vec2 headTextureCoordinates(const glm::vec3& p);
 /// The head's albedo: lips, cheeks, brows, lashes, a shaved scalp.
 Texture makeSkinTexture();
+/// Linear albedos at points of the open-eyed head [mm]: the head's, without brows and lashes.
+std::vector<glm::vec3> openEyedHeadColors(std::span<const glm::vec3> positions);
 
 /// Texture coordinates of a point of the shell [mm]: seen along its axis.
 glm::vec2 shellTextureCoordinates(const glm::vec3& p);

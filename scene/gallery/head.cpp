@@ -8,6 +8,13 @@ namespace nacre::scene::gallery {
 
 namespace {
 
+constexpr float eyeRadius = 12;
+
+/// The middle of the ball that the lids lie on.
+glm::vec3 eyeMiddle(float side) {
+    return {side * 32, 115, 73};
+}
+
 float bell(float x) {
     return exponential(-x * x);
 }
@@ -77,9 +84,13 @@ void addNose(ImplicitSurface& head) {
     });
 }
 
-/// Closed: the upper lid comes down over the lower one along the lash line; a crease above.
-void addEye(ImplicitSurface& head, float side) {
+void carveSocket(ImplicitSurface& head, float side) {
     carveEllipsoid(head, {side * 34, 117, 94}, {17, 11, 15}, 14);
+}
+
+/// The upper lid comes down over the lower one along the lash line; a crease above.
+void addClosedEye(ImplicitSurface& head, float side) {
+    carveSocket(head, side);
     addEllipsoid(head, {side * 32, 115, 73.5f}, {19, 14.5f, 15}, 7);
     head.emboss(boundsOf({side * 32, 116, 84}, {26, 20, 18}), [side](const glm::vec3& p) {
         const float u = side * p.x - 32, v = p.y - 115, w = u / 17;
@@ -88,6 +99,67 @@ void addEye(ImplicitSurface& head, float side) {
         const float step = smoothStep(-0.9f, 0.9f, lash) * smoothStep(10, 1, lash);
         return fade * (1.0f * step - 0.6f * bell((lash + 0.9f) / 1.1f) - 1.1f * bell(crease / 2));
     });
+}
+
+/// A place around the middle of an eye's ball.
+struct EyePlace {
+    float outward; ///< [rad] from straight ahead to the temple
+    float up;      ///< [rad]
+    float radius;  ///< [mm]
+
+    EyePlace(const glm::vec3& p, float side) {
+        const glm::vec3 d = p - eyeMiddle(side);
+        outward = arcTangent(side * d.x, d.z);
+        up = arcTangent(d.y, std::sqrt(d.x * d.x + d.z * d.z));
+        radius = glm::length(d);
+    }
+    /// From -1 at the inner corner of the lids to 1 at the outer one.
+    float across() const { return outward / (outward > 0 ? 1.11f : 1.0f); }
+};
+
+/// The line through both corners [rad upwards]: the outer one is higher.
+float cornerLine(float across) {
+    return 0.07f * across;
+}
+
+/// The edges of the open lids [rad upwards].
+float upperEdge(float across) {
+    const float open = 1 - across * across;
+    return cornerLine(across) + 0.39f * open * (1 + 0.25f * across * across) * (1 - 0.15f * across);
+}
+
+float lowerEdge(float across) {
+    const float open = 1 - across * across;
+    return cornerLine(across) - 0.46f * open * (1 + 0.15f * across);
+}
+
+/// Distance to a lid's edge [mm], positive above it.
+float aboveEdge(const EyePlace& place, float (*edge)(float)) {
+    const float w = place.across(), slope = edge(w + 0.5f) - edge(w - 0.5f);
+    return place.radius * (place.up - edge(w)) / std::sqrt(1 + slope * slope);
+}
+
+/// The opening between the lids is a cone from the middle of the ball, so that their rims stand on the ball. It ends
+/// behind the iris, and in front of the lids, or it would cut the side of the nose.
+float openingDistance(const EyePlace& place) {
+    const float between = smoothMaximum(aboveEdge(place, upperEdge), -aboveEdge(place, lowerEdge), 1);
+    return std::max(smoothMaximum(between, place.radius - eyeRadius - 4.5f, 2), eyeRadius - 4 - place.radius);
+}
+
+void addOpenEye(ImplicitSurface& head, float side) {
+    const glm::vec3 middle = eyeMiddle(side);
+    carveSocket(head, side);
+    addEllipsoid(head, middle, {eyeRadius + 2.5f, eyeRadius + 2.2f, eyeRadius + 2.2f}, 5);
+    head.emboss(boundsOf(middle + glm::vec3(0, 4, 8), {22, 20, 18}), [side](const glm::vec3& p) {
+        const EyePlace place(p, side);
+        const float w = place.across(), crease = place.up - 0.72f + 0.45f * w * w;
+        const float fade = smoothStep(1.1f, 0.6f, std::abs(w)) * smoothStep(19, 16, place.radius);
+        return fade * (0.7f * bell((crease - 0.14f) / 0.12f) - 1.5f * bell(crease / 0.075f));
+    });
+    head.carve(boundsOf({middle}, eyeRadius + 6), 1.2f,
+               [side](const glm::vec3& p) { return openingDistance(EyePlace(p, side)); });
+    // The caruncle, in the inner corner.
+    addEllipsoid(head, middle + eyeRadius * glm::vec3(side * -0.735f, -0.07f, 0.67f), {1.5f, 1.3f, 1.3f}, 1.6f);
 }
 
 void addMouth(ImplicitSurface& head) {
@@ -187,9 +259,7 @@ void addEar(ImplicitSurface& head, float side) {
     tube({{{12, -30, 2}, 4.2f}, {{8, -26, 1}, 4}, {{3, -20, 0}, 3.5f}}, 4);
 }
 
-} // namespace
-
-Body makeHead(std::size_t triangles) {
+ImplicitSurface sculptHead(void (*addEye)(ImplicitSurface& head, float side)) {
     ImplicitSurface head;
     addSkull(head);
     addNeck(head);
@@ -197,10 +267,21 @@ Body makeHead(std::size_t triangles) {
     bothSides([&](float side) { addEye(head, side); });
     addMouth(head);
     bothSides([&](float side) { addEar(head, side); });
+    return head;
+}
+
+} // namespace
+
+Body makeHead(std::size_t triangles) {
+    ImplicitSurface head = sculptHead(addClosedEye);
     // Skin is not quite even.
     head.emboss(boundsOf({0, 80, 0}, {110, 160, 130}),
                 [](const glm::vec3& p) { return 0.09f * noise(p / 8.f) + 0.05f * noise(p / 3.2f + glm::vec3(17)); });
     return makeBody(head, 1.25f, triangles);
+}
+
+Body makeOpenEyedHead(std::size_t triangles) {
+    return makeBody(sculptHead(addOpenEye), 0.6f, triangles);
 }
 
 } // namespace nacre::scene::gallery

@@ -47,6 +47,18 @@ struct Line {
 };
 
 constexpr Line lines[] = {
+    {{{{19.5f, 113.8f, 80}, {21, 114, 80.5f}, {22, 114, 81}, {23, 114, 82}}},
+     1.8f,
+     0.8f,
+     1.8f,
+     {1.05f, 0.70f, 0.68f},
+     0},
+    {{{{23.5f, 45.8f, 87}, {24.5f, 45.6f, 87}, {25.5f, 45.4f, 86}, {26.5f, 45.3f, 85}}},
+     1.2f,
+     0.6f,
+     1.6f,
+     {0.70f, 0.50f, 0.48f},
+     0},
     {{{{0, 51, 99}, {6, 52, 99}, {14, 49.5f, 95}, {24, 46, 87}}}, 3.4f, 0.6f, 1.4f, {0.84f, 0.56f, 0.55f}, 0},
     {{{{0, 41.8f, 99}, {8, 42.3f, 98}, {16, 44, 93.5f}, {24, 46, 87}}}, 4.2f, 0.6f, 1.4f, {0.86f, 0.58f, 0.57f}, 0},
     {{{{0, 46.6f, 100}, {7, 47.1f, 99}, {15, 46.6f, 95}, {24.5f, 45.6f, 87}}},
@@ -63,20 +75,26 @@ constexpr Line lines[] = {
      0.3f},
     {{{{11, 131.5f, 90}, {24, 138, 85}, {38, 140, 77}, {52, 132.5f, 60}}}, 3.6f, 1, 1.8f, {0.34f, 0.26f, 0.22f}, 0.55f},
 };
+/// The corners of eyes and mouth, and the lips: brows and lashes are models.
+constexpr std::span<const Line> openEyedLines = std::span<const Line>(lines).first(5);
+/// Lips, lashes and brows.
+constexpr std::span<const Line> closedEyedLines = std::span<const Line>(lines).subspan(2);
 
-/// The patches and lines where they lie on the map.
+/// The patches and some lines where they lie on the map.
 struct Chart {
     struct MappedLine {
         std::array<glm::vec2, 4> points;
         glm::vec2 low, high; ///< outside of it the line has no effect
     };
     std::vector<glm::vec2> patchPlaces;
-    std::vector<MappedLine> linePlaces;
+    std::span<const Line> painted;
+    std::vector<MappedLine> linePlaces; ///< one for each of them
+    float finest;                       ///< [mm] finer noise is left out
 
-    Chart() {
+    Chart(std::span<const Line> paintedLines, float finestNoise) : painted(paintedLines), finest(finestNoise) {
         for (const Patch& patch : patches)
             patchPlaces.push_back(onMap(patch.place));
-        for (const Line& line : lines) {
+        for (const Line& line : painted) {
             MappedLine mapped{{}, glm::vec2(1e9f), glm::vec2(-1e9f)};
             const float reach = std::max(line.begin, line.end) + line.softness;
             for (std::size_t i = 0; i < line.points.size(); ++i) {
@@ -109,8 +127,11 @@ float lineCover(const glm::vec2& q, const Line& line, const Chart::MappedLine& m
 glm::vec3 skinColor(const glm::vec2& q, const Chart& chart) {
     const glm::vec2 folded(std::abs(q.x), q.y);
     glm::vec3 color(0.66f, 0.45f, 0.355f);
-    color *= 1 + 0.035f * noise(glm::vec3(q / 3.1f, 1)) + 0.045f * noise(glm::vec3(q / 9.f, 7));
-    color.r *= 1 + 0.03f * noise(glm::vec3(q / 6.f, 3));
+    const auto grain = [&](float size, float slice) {
+        return size < chart.finest ? 0.f : noise(glm::vec3(q / size, slice));
+    };
+    color *= 1 + 0.035f * grain(3.1f, 1) + 0.045f * grain(9, 7);
+    color.r *= 1 + 0.03f * grain(6, 3);
     for (std::size_t i = 0; i < std::size(patches); ++i) {
         const glm::vec2 d = (folded - chart.patchPlaces[i]) / patches[i].radii;
         const float square = glm::dot(d, d);
@@ -118,13 +139,14 @@ glm::vec3 skinColor(const glm::vec2& q, const Chart& chart) {
             color *= glm::mix(glm::vec3(1), patches[i].tint, exponential(-square));
     }
     // Short hair shows through the scalp; the hairline runs over the forehead and down in front of the ears.
-    const float hairline = q.y - 88 + 0.0065f * q.x * q.x + 3 * noise(glm::vec3(q / 5.f, 11));
+    const float hairline = q.y - 88 + 0.0065f * q.x * q.x + 3 * grain(5, 11);
     const float scalp =
         std::max(smoothStep(-6, 10, hairline), smoothStep(118, 128, glm::length(q)) * smoothStep(-70, -30, q.y));
-    const float stubble = 0.85f + 0.15f * noise(glm::vec3(q / 0.9f, 5));
+    const float stubble = 0.85f + 0.15f * grain(0.9f, 5);
     color *= glm::mix(glm::vec3(1), glm::vec3(0.80f, 0.83f, 0.88f) * stubble, 0.8f * scalp);
-    for (std::size_t i = 0; i < std::size(lines); ++i)
-        color *= glm::mix(glm::vec3(1), lines[i].tint, lineCover(folded, lines[i], chart.linePlaces[i]));
+    for (std::size_t i = 0; i < chart.painted.size(); ++i)
+        color *=
+            glm::mix(glm::vec3(1), chart.painted[i].tint, lineCover(folded, chart.painted[i], chart.linePlaces[i]));
     return color;
 }
 
@@ -136,10 +158,17 @@ glm::vec2 headTextureCoordinates(const glm::vec3& p) {
 }
 
 Texture makeSkinTexture() {
-    const Chart chart;
+    const Chart chart(closedEyedLines, 0);
     return paint("skin", 1024, [&](const glm::vec2& uv) {
         return skinColor(glm::vec2(uv.x - 0.5f, 0.5f - uv.y) * (2 * pi * headRadius), chart);
     });
+}
+
+std::vector<glm::vec3> openEyedHeadColors(std::span<const glm::vec3> positions) {
+    const Chart chart(openEyedLines, 4); // mm, between vertices
+    std::vector<glm::vec3> colors(positions.size());
+    std::ranges::transform(positions, colors.begin(), [&](const glm::vec3& p) { return skinColor(onMap(p), chart); });
+    return colors;
 }
 
 } // namespace nacre::scene::gallery
