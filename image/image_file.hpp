@@ -51,7 +51,7 @@ struct ByteImage {
 };
 
 /// Decodes a PNG, JPEG, WebP, BMP or TGA from memory; `name` is what an error calls it. Of 16 bits it keeps the
-/// upper 8. Throws Unavailable for another format whose beginning is known, FileError for what cannot be read.
+/// upper 8. Throws UnreadPicture for another format whose beginning is known, FileError for what cannot be read.
 ByteImage decodeBytes(std::span<const std::uint8_t> bytes, const std::string& name);
 
 } // namespace nacre

@@ -1,5 +1,5 @@
 // Pictures made to be shown: which decoder reads them, and PNG, JPEG and Radiance files written by stb_image_write.
-#include "core/files/unavailable.hpp"
+#include "core/files/unread_picture.hpp"
 #include "image/codecs.hpp"
 #include "nacre/files.hpp"
 
@@ -73,7 +73,7 @@ void requireReadFormat(std::span<const std::uint8_t> bytes, const std::string& n
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     for (const UnreadFormat& format : unreadFormats) {
         if (text.size() > format.offset && text.substr(format.offset).starts_with(format.signature)) {
-            throw Unavailable(name + ": is a " + std::string(format.name) + " image, which is not read here");
+            throw UnreadPicture(name + ": is a " + std::string(format.name) + " image, which is not read here");
         }
     }
 }

@@ -1,6 +1,5 @@
 #include "scene/named_file.hpp"
 
-#include "core/files/unavailable.hpp"
 #include "scene/json_text.hpp"
 
 #include <algorithm>
@@ -15,7 +14,6 @@ namespace fs = std::filesystem;
 struct Found {
     fs::path path;
     std::string fault;
-    bool isMissing = false;
 };
 
 /// Whether `path` is in `folder` or below; both without links.
@@ -38,8 +36,10 @@ Found find(const fs::path& owner, std::string reference) {
     const fs::path folder = fs::canonical(owner.has_parent_path() ? owner.parent_path() : fs::path("."), error);
     const fs::path target = error ? fs::path() : fs::canonical(given, error);
     if (error) {
-        const bool isMissing = error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
-        return {{}, isMissing ? "does not exist" : "cannot be read: " + error.message(), isMissing};
+        return {{},
+                error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory
+                    ? "does not exist"
+                    : "cannot be read: " + error.message()};
     }
     if (!isBelow(target, folder)) {
         return {{}, "lies outside the folder of the file that names it"};
@@ -54,9 +54,6 @@ Found find(const fs::path& owner, std::string reference) {
 
 fs::path findNamedFile(const fs::path& owner, const std::string& reference, const std::string& where) {
     Found found = find(owner, reference);
-    if (found.isMissing) {
-        throw Unavailable(where + " " + shorten(reference) + " " + found.fault);
-    }
     if (!found.fault.empty()) {
         throw SceneError(where + " " + shorten(reference) + " " + found.fault);
     }

@@ -10,7 +10,7 @@ namespace nacre::scene {
 
 /// The path of `reference`, as the file `owner` writes it. Backslashes separate folders as slashes do. What it leads
 /// to, once "..", links and the like are followed, has to be a regular file in the owner's folder or below it. Throws
-/// Unavailable, "`where` "REFERENCE" does not exist", or SceneError for whatever else is wrong with it.
+/// SceneError: "`where` "REFERENCE" does not exist", or whatever else is wrong with it.
 std::filesystem::path findNamedFile(const std::filesystem::path& owner, const std::string& reference,
                                     const std::string& where);
 

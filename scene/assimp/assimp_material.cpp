@@ -1,6 +1,6 @@
 #include "scene/assimp/assimp_material.hpp"
 
-#include "core/files/unavailable.hpp"
+#include "core/files/unread_picture.hpp"
 #include "image/image_file.hpp"
 #include "scene/named_file.hpp"
 #include "scene/texture.hpp"
@@ -97,7 +97,7 @@ Texture AssimpMaterials::load(const std::string& reference, const std::string& f
     const std::string named = withoutBlenderPrefix(reference);
     const fs::path found = findTexture(file_, named);
     if (found.empty()) {
-        throw Unavailable(field + " " + faultOfNamedFile(file_, named));
+        throw SceneError(field + " " + faultOfNamedFile(file_, named));
     }
     inputs_.push_back(found.string());
     return readTexture(found, srgb);
@@ -123,7 +123,7 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::span<con
                 scene_.textures.back().wrapU = wrapU;
                 scene_.textures.back().wrapV = wrapV;
                 entry->second = static_cast<std::uint32_t>(scene_.textures.size() - 1);
-            } catch (const Unavailable& reason) {
+            } catch (const UnreadPicture& reason) {
                 scene_.notes.push_back(std::string(reason.what()) + "; it is left out");
             }
         }
@@ -138,7 +138,11 @@ void AssimpMaterials::addEmission(const aiMaterial& material, Surface& surface) 
         const auto positive = [](float value) { return std::isfinite(value) ? std::clamp(value, 0.0f, 1e6f) : 0.0f; };
         surface.emission = {positive(emission.r), positive(emission.g), positive(emission.b)};
     }
-    surface.emissionTexture = texture(material, emissionTypes, true);
+    try {
+        surface.emissionTexture = texture(material, emissionTypes, true);
+    } catch (const FileError& error) {
+        scene_.notes.push_back(std::string(error.what()) + "; it is left out");
+    }
     if (surface.emissionTexture == none && isTextured(material, emissionTypes)) {
         surface.emission = glm::vec3(0); // which alone would light up what the texture leaves dark
     }

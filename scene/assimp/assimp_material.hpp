@@ -25,7 +25,7 @@ public:
     const std::vector<std::string>& inputs() const { return inputs_; }
 
 private:
-    /// none, with a note, for what does not exist or is in a format that is not read.
+    /// none, with a note, for a picture in a format that is known and not read.
     std::uint32_t texture(const aiMaterial& material, std::span<const aiTextureType> types, bool srgb);
     Texture load(const std::string& reference, const std::string& field, bool srgb);
     void addEmission(const aiMaterial& material, Surface& surface);

@@ -1,6 +1,6 @@
 #include "scene/gltf/gltf_material.hpp"
 
-#include "core/files/unavailable.hpp"
+#include "core/files/unread_picture.hpp"
 #include "scene/gltf/gltf_scale_texture.hpp"
 #include "scene/surface_material.hpp"
 #include "scene/texture.hpp"
@@ -311,7 +311,7 @@ std::uint32_t GltfMaterials::texture(const GltfTextureUse& use, bool srgb) {
         texture.wrapV = sampling.wrapV;
         texture.nearest = sampling.nearest;
         scene_.textures.push_back(std::move(texture));
-    } catch (const Unavailable& reason) {
+    } catch (const UnreadPicture& reason) {
         scene_.notes.push_back(std::string(reason.what()) + "; it is left out");
         return textures_[key] = none;
     }

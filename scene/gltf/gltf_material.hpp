@@ -31,7 +31,7 @@ private:
     void setScale(Surface& surface, const GltfMedium& medium, const glm::vec3& factor, std::uint32_t colors);
     /// The image of a texture; -1, with a note, where nothing that is read supplies one.
     int imageOf(const tinygltf::Texture& texture, const std::string& field);
-    /// none, with a note, for what does not exist or is in a format that is not read.
+    /// none, with a note, for a picture in a format that is known and not read.
     std::uint32_t texture(const GltfTextureUse& use, bool srgb);
     /// Of images[image].
     Texture decode(const GltfImage& image, const std::string& field, bool srgb);

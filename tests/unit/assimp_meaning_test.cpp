@@ -128,13 +128,13 @@ TEST_F(AssimpMeaning, AHundredThousandObjectsAreReadAsOne) {
     EXPECT_EQ(notesOf(scene).back(), "many.obj: has more than 20000 objects and groups, which are read as one");
 }
 
-TEST_F(AssimpMeaning, ATextureThatIsNotThereIsLeftOut) {
-    const Scene scene = square("newmtl a\nKd 0 0 0\nmap_Kd C:\\work\\gone.png\n");
+TEST_F(AssimpMeaning, ATextureInAFormatThatIsNotReadIsLeftOut) {
+    std::ofstream(folder / "skin.dds") << "DDS and more";
+    const Scene scene = square("newmtl a\nKd 0 0 0\nmap_Kd skin.dds\n");
     const Surface& surface = scene.surfaces.at(scene.meshes.at(0).surface);
     EXPECT_EQ(surface.baseColorTexture, none);
     EXPECT_EQ(surface.baseColor, glm::vec4(1)) << "the black beside a texture is no colour";
-    EXPECT_EQ(notesOf(scene),
-              Notes{"m.obj: material \"a\": texture \"C:\\work\\gone.png\" does not exist; it is left out"});
+    EXPECT_EQ(notesOf(scene), Notes{"skin.dds: is a DDS image, which is not read here; it is left out"});
 }
 
 TEST_F(AssimpMeaning, AByteOrderMarkHidesNothing) {

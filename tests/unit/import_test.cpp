@@ -182,12 +182,18 @@ TEST_F(Import, Turns3dsUprightWhereItsZIsUp) {
     EXPECT_NEAR(other.high.z, 5, 1e-5);
 }
 
-TEST_F(Import, DrawsWithoutAMissingTextureAndNamesIt) {
+TEST_F(Import, NamesTheMissingTexture) {
     store("a.mtl", "newmtl skin\nmap_Kd nowhere.png\n");
     const fs::path file =
         store("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl skin\nf 1/1 2/1 3/1\n");
-    EXPECT_EQ(loadModel(file).notes.at(0),
-              file.string() + ": material \"skin\": texture \"nowhere.png\" does not exist; it is left out");
+    EXPECT_EQ(errorOf([&] { loadModel(file); }),
+              file.string() + ": material \"skin\": texture \"nowhere.png\" does not exist");
+}
+
+TEST_F(Import, PlacesAllGroupsOfRaw) {
+    const std::string triangle = "0 0 0 1 0 0 0 1 0\n";
+    EXPECT_EQ(triangleCount(loadModel(store("groups.raw", "a\n" + triangle + "b\n" + triangle + "c\n" + triangle))),
+              3u);
 }
 
 TEST_F(Import, RefusesWhatIsNoModel) {
