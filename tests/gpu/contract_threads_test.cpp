@@ -8,6 +8,15 @@
 using namespace nacre;
 using namespace nacre::tests;
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+/// Mesa's software device guards what its threads share by futexes, which the sanitizer does not see.
+extern "C" const char* __tsan_default_suppressions() {
+    return "race:libvulkan_lvp.so\n";
+}
+#endif
+#endif
+
 namespace {
 
 /// What one thread needs of Vulkan: images, made before it starts, and a command pool of its own.
