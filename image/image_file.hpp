@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image/image.hpp"
+#include "nacre/files.hpp"
 
 #include <filesystem>
 
@@ -42,6 +43,12 @@ void writeHdr(const std::filesystem::path& file, const Image& image);
 
 /// writeExr, writePng, writeJpeg or writeHdr, by the ending of the file's name: .exr, .png, .jpg, .jpeg or .hdr.
 void writeImage(const std::filesystem::path& file, const Image& image);
+
+/// A picture in a format that is known and not read. Whoever names it may leave it out and say so; one that is missing
+/// or broken is a FileError like any other.
+struct UnreadPicture : FileError {
+    using FileError::FileError;
+};
 
 /// An 8-bit picture as it is in its file: what textures are made of.
 struct ByteImage {

@@ -1,5 +1,4 @@
 // Pictures made to be shown: which decoder reads them, and PNG, JPEG and Radiance files written by stb_image_write.
-#include "core/files/unread_picture.hpp"
 #include "image/codecs.hpp"
 #include "nacre/files.hpp"
 

@@ -1,6 +1,5 @@
 #include "scene/assimp/assimp_material.hpp"
 
-#include "core/files/unread_picture.hpp"
 #include "image/image_file.hpp"
 #include "scene/named_file.hpp"
 #include "scene/texture.hpp"
@@ -79,7 +78,7 @@ constexpr std::array emissionTypes{aiTextureType_EMISSION_COLOR, aiTextureType_E
 constexpr std::array normalTypes{aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA};
 constexpr std::array opacityTypes{aiTextureType_OPACITY};
 
-/// Whether the material names a texture of one of the types, be it there or not.
+/// Whether the material names a texture of one of the types, be it read or not.
 bool isTextured(const aiMaterial& material, std::span<const aiTextureType> types) {
     return std::ranges::any_of(types, [&](aiTextureType type) { return material.GetTextureCount(type) > 0; });
 }

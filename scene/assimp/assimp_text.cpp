@@ -15,9 +15,10 @@ std::string_view viewOf(std::span<const std::uint8_t> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+constexpr std::string_view blanks = " \t\r"; // the last ends lines
+
 /// Takes the first line off a text: without its ending, and without blanks around it.
 std::string_view takeLine(std::string_view& rest) {
-    constexpr std::string_view blanks = " \t\r";
     std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
     line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
@@ -26,7 +27,6 @@ std::string_view takeLine(std::string_view& rest) {
 
 /// Whether a line begins with the word, which is taken off then, with the blanks behind it.
 bool takeWord(std::string_view& line, std::string_view word) {
-    constexpr std::string_view blanks = " \t";
     if (!line.starts_with(word) || line.find_first_of(blanks) != word.size()) {
         return false;
     }
@@ -38,8 +38,8 @@ bool takeWord(std::string_view& line, std::string_view word) {
 std::vector<std::string_view> librariesIn(std::string_view names) {
     std::vector<std::string_view> parts;
     for (std::string_view rest = names; !rest.empty();) {
-        const std::string_view part = rest.substr(0, rest.find_first_of(" \t"));
-        rest.remove_prefix(std::min(rest.find_first_not_of(" \t", part.size()), rest.size()));
+        const std::string_view part = rest.substr(0, rest.find_first_of(blanks));
+        rest.remove_prefix(std::min(rest.find_first_not_of(blanks, part.size()), rest.size()));
         parts.push_back(part);
     }
     const bool areLibraries = std::ranges::all_of(parts, [](std::string_view part) { return part.ends_with(".mtl"); });

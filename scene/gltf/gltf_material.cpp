@@ -1,6 +1,6 @@
 #include "scene/gltf/gltf_material.hpp"
 
-#include "core/files/unread_picture.hpp"
+#include "image/image_file.hpp"
 #include "scene/gltf/gltf_scale_texture.hpp"
 #include "scene/surface_material.hpp"
 #include "scene/texture.hpp"
