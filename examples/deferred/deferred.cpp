@@ -4,20 +4,17 @@
 // changes. What is Nacre's stands in snippets.
 //
 // Usage: deferred [picture.png [frames in flight [samples a pixel [times as wide and high]]]]
-#include "raster_device.hpp"
+#include "frame_block.hpp"
+#include "images.hpp"
+#include "pipelines.hpp"
 
 // [snippet: raster-headers]
 #include <nacre/nacre.hpp>
 // [end]
 
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
-#include <glm/glm.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <stb/stb_image_write.h>
 
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -26,94 +23,8 @@
 
 namespace {
 
-constexpr std::uint32_t bodyVert[] =
-#include "body.vert.inc"
-    ;
-constexpr std::uint32_t surfaceFrag[] =
-#include "surface.frag.inc"
-    ;
-constexpr std::uint32_t screenVert[] =
-#include "screen.vert.inc"
-    ;
-constexpr std::uint32_t lightingFrag[] =
-#include "lighting.frag.inc"
-    ;
-constexpr std::uint32_t resolveFrag[] =
-#include "resolve.frag.inc"
-    ;
-constexpr std::uint32_t addFrag[] =
-#include "add.frag.inc"
-    ;
-
-constexpr std::uint32_t bodyCount = 8;
-constexpr std::uint32_t cascadeCount = 4;
-constexpr std::uint32_t verticesOfBody = 6 * 48 * 64;
-constexpr std::uint32_t mapSize = 1024;
-constexpr float nearPlane = 0.01f;
 constexpr VkExtent2D sizes[] = {{360, 200}, {480, 270}}; // it changes in the middle
 constexpr int frameCount = 8;
-
-/// As in ellipsoid.glsl. Metres.
-struct FrameBlock {
-    glm::mat4 viewFromWorld, clipFromView, worldFromView;
-    glm::mat4 shadowClipFromWorld[cascadeCount];
-    glm::vec4 cascadeEnds;
-    glm::vec4 lightDirection;
-    struct {
-        glm::vec4 center, radius;
-    } bodies[bodyCount];
-};
-
-/// A projection that looks along -Z, with depth 1 at the near plane and 0 infinitely far. Vulkan's clip space has y
-/// down.
-glm::mat4 reversedPerspective(float fieldOfView, float aspect) {
-    const float f = 1 / std::tan(fieldOfView / 2);
-    return {{f / aspect, 0, 0, 0}, {0, -f, 0, 0}, {0, 0, 0, -1}, {0, 0, nearPlane, 0}};
-}
-
-/// The light's matrix for the part of the camera's frustum between two depths.
-glm::mat4 cascadeMatrix(const FrameBlock& frame, float from, float to) {
-    glm::vec3 corners[8];
-    glm::vec3 middle(0);
-    for (int i = 0; i < 8; ++i) {
-        const float depth = i < 4 ? from : to;
-        const glm::vec4 point((i & 1 ? depth : -depth) / frame.clipFromView[0][0],
-                              (i & 2 ? depth : -depth) / frame.clipFromView[1][1], -depth, 1);
-        corners[i] = frame.worldFromView * point;
-        middle += corners[i] / 8.0f;
-    }
-    float radius = 0;
-    for (const glm::vec3& corner : corners) {
-        radius = std::max(radius, glm::length(corner - middle));
-    }
-    const glm::vec3 direction(frame.lightDirection);
-    const glm::mat4 view = glm::lookAt(middle - direction, middle, glm::vec3(0, 1, 0));
-    return glm::ortho(-radius, radius, -radius, radius, 0.0f, 2.0f) * view;
-}
-
-FrameBlock makeFrame(VkExtent2D extent, int number) {
-    FrameBlock frame{};
-    const float aside = 0.002f * static_cast<float>(number);
-    frame.viewFromWorld =
-        glm::lookAt(glm::vec3(0.01f + aside, 0.055f, 0.17f), glm::vec3(0, 0.022f, 0), glm::vec3(0, 1, 0));
-    frame.worldFromView = glm::inverse(frame.viewFromWorld);
-    frame.clipFromView =
-        reversedPerspective(0.7f, static_cast<float>(extent.width) / static_cast<float>(extent.height));
-    frame.lightDirection = glm::vec4(glm::normalize(glm::vec3(-0.25f, -0.45f, 0.85f)), 6.0f);
-    frame.cascadeEnds = {0.14f, 0.2f, 0.32f, 0.8f};
-    for (std::uint32_t i = 0; i < cascadeCount; ++i) {
-        frame.shadowClipFromWorld[i] =
-            cascadeMatrix(frame, i == 0 ? nearPlane : frame.cascadeEnds[i - 1], frame.cascadeEnds[i]);
-    }
-    frame.bodies[0] = {{0, -0.1f, -0.1f, 0}, {0.6f, 0.1f, 0.6f, 0}}; // the table
-    for (int i = 1; i < int{bodyCount}; ++i) {                       // balls and sheets, one behind the other
-        const bool isSheet = i % 2 == 0;
-        const float x = 0.05f * static_cast<float>(i % 3 - 1);
-        const float z = 0.06f - 0.045f * static_cast<float>(i);
-        frame.bodies[i] = {{x, 0.021f, z, 1 + i % 3}, {0.02f, 0.02f, isSheet ? 0.0015f : 0.02f, 0}};
-    }
-    return frame;
-}
 
 // [snippet: raster-context]
 void check(NacreResult result) {
@@ -150,26 +61,6 @@ nacre::Context createContext(const Device& device, VkExtent2D extent, const VkPh
 }
 // [end]
 
-struct GBuffer {
-    Image albedo, normal, depth;
-};
-
-struct Images {
-    GBuffer drawn;    // one or several samples a pixel
-    GBuffer resolved; // of several samples: one
-    Image ids;        // of several samples, in place of the stencil
-    Image shadowMap, irradiance, picture;
-    Image scattered, transmitted, composed; // the effect's
-
-    template <typename Each> void forEach(Each&& each) {
-        for (Image* image :
-             {&drawn.albedo, &drawn.normal, &drawn.depth, &resolved.albedo, &resolved.normal, &resolved.depth, &ids,
-              &shadowMap, &irradiance, &picture, &scattered, &transmitted, &composed}) {
-            each(*image);
-        }
-    }
-};
-
 // [snippet: raster-images]
 void createEffectImages(Device& device, VkExtent2D extent, Images& images) {
     for (Image* image : {&images.scattered, &images.transmitted, &images.composed}) {
@@ -182,61 +73,6 @@ NacreImage effectImage(const Image& image) {
     return {image.view, image.format, image.last.layout, image.extent, image.usage};
 }
 // [end]
-
-Images createImages(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples) {
-    constexpr VkImageUsageFlags color = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    constexpr VkImageUsageFlags depth = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    Images images;
-    images.shadowMap = device.createImage(VK_FORMAT_D32_SFLOAT, {mapSize, mapSize}, depth, cascadeCount);
-    images.drawn = {device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color, 0, samples),
-                    device.createImage(VK_FORMAT_R16G16_SFLOAT, extent, color, 0, samples),
-                    device.createImage(VK_FORMAT_D32_SFLOAT_S8_UINT, extent, depth, 0, samples)};
-    if (samples != VK_SAMPLE_COUNT_1_BIT) {
-        images.resolved = {device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color),
-                           device.createImage(VK_FORMAT_R16G16_SFLOAT, extent, color),
-                           device.createImage(VK_FORMAT_R32_SFLOAT, extent, color)};
-        images.ids = device.createImage(VK_FORMAT_R8_UINT, extent, color);
-    }
-    images.irradiance = device.createImage(VK_FORMAT_R16G16B16A16_SFLOAT, extent, color);
-    images.picture = device.createImage(VK_FORMAT_R8G8B8A8_SRGB, extent, color | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    createEffectImages(device, extent, images);
-    return images;
-}
-
-struct Pipelines {
-    VkPipeline shadow, surface, lighting, add;
-};
-
-VkPipeline createLighting(Device& device, VkSampleCountFlagBits samples) {
-    if (samples == VK_SAMPLE_COUNT_1_BIT) {
-        return device.createPipeline({.vertex = screenVert,
-                                      .fragment = lightingFrag,
-                                      .colors = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB}});
-    }
-    return device.createPipeline(
-        {.vertex = screenVert,
-         .fragment = resolveFrag,
-         .colors = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB,
-                    VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_R8_UINT}});
-}
-
-Pipelines createPipelines(Device& device, VkSampleCountFlagBits samples) {
-    return {device.createPipeline({.vertex = bodyVert,
-                                   .fragment = {},
-                                   .colors = {},
-                                   .depth = VK_FORMAT_D32_SFLOAT,
-                                   .compare = VK_COMPARE_OP_LESS}),
-            device.createPipeline({.vertex = bodyVert,
-                                   .fragment = surfaceFrag,
-                                   .colors = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16_SFLOAT},
-                                   .depth = VK_FORMAT_D32_SFLOAT_S8_UINT,
-                                   .compare = VK_COMPARE_OP_GREATER,
-                                   .writesStencil = true,
-                                   .samples = samples}),
-            createLighting(device, samples),
-            device.createPipeline(
-                {.vertex = screenVert, .fragment = addFrag, .colors = {VK_FORMAT_R8G8B8A8_SRGB}, .adds = true})};
-}
 
 /// One frame's drawing. Everything is on one queue, and images are the same in all frames: `use` orders a frame after
 /// what the one before did with them.
@@ -251,10 +87,8 @@ public:
         device_.createFrames(framesInFlight, sizeof(FrameBlock));
         samples_ = samples;
         pipelines_ = createPipelines(device_, samples);
-        images_ = createImages(device_, extent, samples);
-        extent_ = extent;
-        context_ = createContext(device_, extent_, requirements_.features);
-        bindImages();
+        context_ = createContext(device_, extent, requirements_.features);
+        makeImages(extent);
     }
     ~Renderer() {
         vkDeviceWaitIdle(device_.device);
@@ -266,12 +100,10 @@ public:
     void resize(VkExtent2D extent) {
         vkDeviceWaitIdle(device_.device);
         images_.forEach([&](Image& image) { device_.destroy(image); });
-        images_ = createImages(device_, extent, samples_);
-        extent_ = extent;
         // [snippet: raster-resize]
         check(context_.resize(extent)); // the device is idle
         // [end]
-        bindImages();
+        makeImages(extent);
     }
 
     void draw(int number) {
@@ -322,8 +154,11 @@ private:
     /// What has one sample a pixel.
     const GBuffer& surfaces() const { return isMultisampled() ? images_.resolved : images_.drawn; }
 
-    /// What follows from the images: the buffer that the picture is copied to, and the sets.
-    void bindImages() {
+    /// The images, and what follows from them: the buffer that the picture is copied to, and the sets.
+    void makeImages(VkExtent2D extent) {
+        extent_ = extent;
+        images_ = createImages(device_, extent, samples_);
+        createEffectImages(device_, extent, images_);
         pixels_ =
             device_.createBuffer(VkDeviceSize{4} * extent_.width * extent_.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         const VkDescriptorImageInfo bound[] = {

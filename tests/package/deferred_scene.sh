@@ -26,7 +26,7 @@ awk 'BEGIN {
         }
 }' > sphere.obj
 
-# makeFrame of deferred.cpp, for its last frame.
+# makeFrame of frame_block.cpp, for its last frame.
 awk 'BEGIN {
     split("\"marble\" \"skin\" \"wax\"", material, " ")
     split("0.83,0.79,0.75 0.77,0.55,0.45 0.92,0.82,0.62", colour, " ")
