@@ -16,6 +16,11 @@ GltfPrimitive::Attribute decodeAttribute(const GltfFile& file, const draco::Mesh
     if (width == 0 || width > 4) {
         failGltf(file, field + " has " + std::to_string(width) + " components, must have 1 to 4");
     }
+    if (attribute.data_type() == draco::DT_BOOL) { // Draco takes any byte of the file for one
+        failGltf(file, field + " has components that are true or false, which glTF does not have");
+    }
+    draco::GeometryAttribute plain = attribute;
+    plain.set_normalized(false); // the accessor says so
     GltfPrimitive::Attribute result;
     result.components = static_cast<int>(width);
     file.budget->charge(mesh.num_points() * width * sizeof(float)); // many attributes may share the compressed one
@@ -23,7 +28,7 @@ GltfPrimitive::Attribute decodeAttribute(const GltfFile& file, const draco::Mesh
     for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
         const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(point));
         if (value.value() >= attribute.size() ||
-            !attribute.ConvertValue(value, static_cast<std::int8_t>(width), &result.values[point * width])) {
+            !plain.ConvertValue(value, static_cast<std::int8_t>(width), &result.values[point * width])) {
             failGltf(file, field + " is damaged");
         }
     }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace nacre;
@@ -160,6 +161,49 @@ TEST(GltfExtensions, DecompressDraco) {
     extension["attributes"]["POSITION"] = 9;
     EXPECT_NE(wrong.error().find("attributes.POSITION is 9, which the compressed data do not have"), std::string::npos)
         << wrong.error();
+}
+
+/// A compressed triangle whose first corner is white and whose others are dark: an accessor of normalized bytes.
+template <typename Component>
+GltfBuilder dracoColors(draco::DataType type, bool normalizedInDraco, Component high, Component low) {
+    draco::TriangleSoupMeshBuilder soup;
+    soup.Start(1);
+    const int position = soup.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int color = soup.AddAttribute(draco::GeometryAttribute::COLOR, 3, type, normalizedInDraco);
+    const std::array<std::array<float, 3>, 3> points{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    const std::array<Component, 3> light{high, high, high}, dark{low, low, low};
+    soup.SetAttributeValuesForFace(position, draco::FaceIndex(0), points[0].data(), points[1].data(), points[2].data());
+    soup.SetAttributeValuesForFace(color, draco::FaceIndex(0), light.data(), dark.data(), dark.data());
+    const auto mesh = soup.Finalize();
+    draco::EncoderBuffer encoded;
+    EXPECT_TRUE(draco::Encoder().EncodeMeshToBuffer(*mesh, &encoded).ok());
+    GltfBuilder builder;
+    const auto view = builder.addView(std::vector<std::uint8_t>(encoded.data(), encoded.data() + encoded.size()));
+    builder.json["accessors"] = {{{"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+                                 {{"componentType", 5121}, {"count", 3}, {"type", "VEC3"}, {"normalized", true}}};
+    const Json ids = {{"POSITION", mesh->attribute(position)->unique_id()},
+                      {"COLOR_0", mesh->attribute(color)->unique_id()}};
+    builder.setPrimitive(
+        {{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
+         {"extensions", {{"KHR_draco_mesh_compression", {{"bufferView", view}, {"attributes", ids}}}}}});
+    return builder;
+}
+
+TEST(GltfExtensions, NormalizeColorsOfDracoOnce) {
+    for (const bool normalized : {false, true}) {
+        const Scene scene = dracoColors<std::uint8_t>(draco::DT_UINT8, normalized, 255, 51).load();
+        std::vector<int> reds;
+        for (const Vertex& vertex : scene.meshes.at(0).vertices) {
+            reds.push_back(vertex.color.x);
+        }
+        std::ranges::sort(reds);
+        EXPECT_EQ(reds, (std::vector{13107, 13107, 65535})) << normalized;
+    }
+}
+
+TEST(GltfExtensions, RefuseBoolsOfDraco) {
+    const std::string error = dracoColors<bool>(draco::DT_BOOL, false, true, false).error();
+    EXPECT_NE(error.find("attributes.COLOR_0 has components that are true or false"), std::string::npos) << error;
 }
 
 TEST(GltfExtensions, SurviveDamagedDraco) {
