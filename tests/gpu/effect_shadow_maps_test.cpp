@@ -121,6 +121,28 @@ TEST_F(ShadowMapsTest, CubeOfHardwareDepth) {
     }
 }
 
+/// What lies farther towards the light than twice the authored thickness is another body, and throws a shadow; a few
+/// texels and half the profile's width more are the map's and the filter's inexactness.
+TEST_F(ShadowMapsTest, BeyondTwiceTheAuthoredThicknessAnotherBodyShadows) {
+    constexpr double authored = 0.4, reach = 10;
+    setMaterial(static_cast<float>(authored));
+    const double spread = makeProfile(marble())->quantileRadius(0.75);
+    NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+    setMatrix(source.shadowClipFromWorld, orthographic, reach);
+    for (const std::uint32_t size : {24u, 512u}) {
+        const double own = 2 * authored + 4 * (2 * reach / size) + 0.5 * spread;
+        const auto lightAt = [&](double distance) {
+            const double entry = orthographic.at(lightDepth - receiverDepth - distance);
+            const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {size, size},
+                                           std::vector<float>(std::size_t{size} * size, static_cast<float>(entry)));
+            const NacreImage maps[] = {map.nacre()};
+            return transmit(plane, source, maps).light[imageSize * imageSize / 2 + imageSize / 2][0];
+        };
+        EXPECT_GT(lightAt(0.93 * own), 0.01) << size << " texels";
+        EXPECT_EQ(lightAt(1.07 * own), 0) << size << " texels";
+    }
+}
+
 TEST_F(ShadowMapsTest, CulledFrontFacesLeaveTheAuthoredThickness) {
     NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
     setMatrix(source.shadowClipFromWorld, orthographic, 60);
