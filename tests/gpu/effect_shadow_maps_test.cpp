@@ -143,6 +143,28 @@ TEST_F(ShadowMapsTest, BeyondTwiceTheAuthoredThicknessAnotherBodyShadows) {
     }
 }
 
+/// Where texels are too coarse to tell, the authored thickness stands in, but for the share that another body shadows.
+TEST_F(ShadowMapsTest, OfACoarseMapHalfAWallTakesHalfTheLight) {
+    constexpr std::uint32_t size = 4;
+    setMaterial(0.4f);
+    NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
+    setMatrix(source.shadowClipFromWorld, orthographic, 10);
+    const auto lightBefore = [&](double right) {
+        std::vector<float> values;
+        for (std::uint32_t i = 0; i < size * size; ++i) {
+            const double distance = i % size < size / 2 ? 12 : right;
+            values.push_back(static_cast<float>(orthographic.at(lightDepth - receiverDepth - distance)));
+        }
+        const GpuImage map = createMap(VK_FORMAT_D32_SFLOAT, {size, size}, values);
+        const NacreImage maps[] = {map.nacre()};
+        const Result result = transmit(plane, source, maps);
+        const std::size_t middle = imageSize * imageSize / 2 + imageSize / 2;
+        return 0.5 * (result.light[middle - 1][0] + result.light[middle][0]);
+    };
+    const double whole = lightBefore(12);
+    EXPECT_NEAR(lightBefore(100), 0.5 * whole, 0.03 * whole);
+}
+
 TEST_F(ShadowMapsTest, CulledFrontFacesLeaveTheAuthoredThickness) {
     NacreLight source = light(NACRE_LIGHT_DIRECTIONAL);
     setMatrix(source.shadowClipFromWorld, orthographic, 60);
