@@ -118,6 +118,14 @@ protected:
         m[15] = 1;
         return source;
     }
+    /// The call with everything in other units.
+    Result callInUnits(ScatterInput input, NacreLight light, std::span<const NacreImage> maps, double unit) {
+        toUnits(input, unit);
+        toUnits(light, unit);
+        Result result;
+        EXPECT_EQ(call(input, std::span(&light, 1), maps, result), NACRE_SUCCESS);
+        return result;
+    }
 };
 
 TEST_F(UnitsOfTransmitTest, ABodyIsAsThickAndAsMuchOfItsLitSideIsSeen) {
@@ -130,12 +138,7 @@ TEST_F(UnitsOfTransmitTest, ABodyIsAsThickAndAsMuchOfItsLitSideIsSeen) {
     EXPECT_EQ(expected.light[middle + 1][0], 0) << "its entry is seen";
     EXPECT_GT(expected.light[middle + 10][0], 0.01) << "its entry is not lit";
     for (const double unit : units) {
-        ScatterInput input = plane();
-        NacreLight other = source;
-        toUnits(input, unit);
-        toUnits(other, unit);
-        Result result;
-        ASSERT_EQ(call(input, std::span(&other, 1), maps, result), NACRE_SUCCESS);
+        const Result result = callInUnits(plane(), source, maps, unit);
         expectSame(result.light, expected.light, unit);
         for (std::size_t i = 0; i < expected.thickness.size(); ++i) {
             ASSERT_NEAR(result.thickness[i], expected.thickness[i], 1e-3 * expected.thickness[i] + 1e-5)
@@ -196,12 +199,7 @@ TEST_F(UnitsOfTransmitTest, LampsShineAsFar) {
     ASSERT_EQ(call(plane, std::span(&source, 1), maps, expected), NACRE_SUCCESS);
     EXPECT_GT(expected.light[imageSize * imageSize / 2 + imageSize / 2][0], 1e-3);
     for (const double unit : units) {
-        ScatterInput input = plane;
-        NacreLight other = source;
-        toUnits(input, unit);
-        toUnits(other, unit);
-        Result result;
-        ASSERT_EQ(call(input, std::span(&other, 1), maps, result), NACRE_SUCCESS);
+        const Result result = callInUnits(plane, source, maps, unit);
         expectSame(result.light, expected.light, unit);
     }
 }
