@@ -11,11 +11,11 @@ namespace nacre {
 
 /// What the child may use.
 struct ProcessLimits {
-    unsigned seconds = 2;             ///< of processor time; three times as many on the clock
+    unsigned seconds = 3;             ///< of processor time; three times as many on the clock
     std::uint64_t bytes = 1ull << 31; ///< of memory on top of what this process has mapped
 };
 
-/// Limits for a file of this size: 2 s and 2 s a MiB; 2 GiB and 64 times the file.
+/// Limits for a file of this size: 3 s and 2 s a MiB; 2 GiB and 64 times the file.
 ProcessLimits limitsFor(std::uint64_t fileBytes);
 
 /// read()'s result, from a child process. An exception that read() throws is a FileError with its sentence here; a
