@@ -114,6 +114,27 @@ TEST_F(ViewLoop, DraggingASliderAllocatesNothingAndWaitsForNothing) {
     loop_->setMaterials(scene_->materials);
 }
 
+TEST_F(ViewLoop, SaysTheSizeOfItsCoarseFrames) {
+    view::LoopSettings settings = smallLoop();
+    settings.tolerableMilliseconds = 1e-3; // no device is so quick
+    settings.stillSamples = 2;
+    PictureLoop loop(device(), *scene_, settings);
+    stillPicture(loop);
+    draw(loop);
+    EXPECT_EQ(loop.drawnExtent(), loop.extent());
+    loop.setMoving(true);
+    ASSERT_TRUE(loop.isCoarse());
+    const vk::Extent2D size = loop.drawnExtent();
+    EXPECT_EQ(size, (vk::Extent2D{side / 6, side / 6}));
+    for (int frame = 0; frame < 4; ++frame) {
+        loop.setMaterials(scene_->materials);
+        draw(loop);
+        EXPECT_EQ(loop.drawnExtent(), size);
+    }
+    loop.resize(2 * side, side);
+    EXPECT_EQ(loop.drawnExtent(), (vk::Extent2D{side / 3, side / 6}));
+}
+
 TEST_F(ViewLoop, WhatIsTakenBackGivesThePictureBackToTheLastBit) {
     const Image before = stillPicture(*loop_);
     std::vector<Material> materials = scene_->materials;

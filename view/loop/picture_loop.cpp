@@ -21,36 +21,37 @@ constexpr std::uint64_t forever = ~std::uint64_t{0};
 constexpr double coarsestShare = 1.0 / 6;
 constexpr double finestCoarseShare = 0.75;
 
-/// An extent with that share of the pixels of each axis.
-vk::Extent2D shrunk(vk::Extent2D extent, double share) {
-    const auto side = [share](std::uint32_t pixels) {
-        return std::max(1u, static_cast<std::uint32_t>(std::lround(pixels * share)));
-    };
-    return {side(extent.width), side(extent.height)};
+renderer::RenderSettings renderSettings(const LoopSettings& loop) {
+    renderer::RenderSettings settings;
+    settings.width = loop.width;
+    settings.height = loop.height;
+    settings.shadowMapSize = loop.shadowMapSize;
+    settings.thickness = loop.thickness;
+    settings.shadowMapsEveryFrame = loop.shadowMapsEveryFrame;
+    return settings;
 }
 
-/// A barrier of an image of the window.
-void recordBarrier(const vk::raii::CommandBuffer& commands, vk::Image image, const renderer::Usage& from,
-                   const renderer::Usage& to) {
-    const auto barrier = renderer::barrierBetween(image, {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}, from, to);
-    commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+/// A slider can make a material ask for second surfaces. No frame is to wait for their passes then.
+renderer::FrameLimits frameLimits(const LoopSettings& loop, const scene::Scene& scene) {
+    return {.framesInFlight = loop.framesInFlight,
+            .lights = loop.lights,
+            .shadowLayers = loop.shadowLayers,
+            .secondSurfaces = !scene.materials.empty()};
 }
 
 } // namespace
 
 PictureLoop::PictureLoop(renderer::Device& device, const scene::Scene& scene, const LoopSettings& settings)
     : gpu_(device.implementation()),
-      device_(device),
       scene_(scene),
       settings_(settings),
+      frames_(device, scene, renderSettings(settings), frameLimits(settings, scene)),
       pool_(gpu_.device,
             {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = gpu_.queueFamily}),
-      camera_(scene.cameras.at(0)),
-      drawn_(scene) {
+      camera_(scene.cameras.at(0)) {
     for (SideSettings& side : sides_) {
         side.look.exposure = scene.exposure;
     }
-    full_ = makeFrame(extent());
     translateErrors([&] {
         attachAll();
         makeSlots();
@@ -65,26 +66,6 @@ PictureLoop::~PictureLoop() {
     }
 }
 
-renderer::RenderSettings PictureLoop::renderSettings(vk::Extent2D extent) const {
-    renderer::RenderSettings settings;
-    static_cast<renderer::EffectSettings&>(settings) = sides_[0].effect;
-    settings.width = extent.width;
-    settings.height = extent.height;
-    settings.shadowMapSize = settings_.shadowMapSize;
-    settings.thickness = settings_.thickness;
-    settings.shadowMapsEveryFrame = settings_.shadowMapsEveryFrame;
-    return settings;
-}
-
-std::unique_ptr<PictureLoop::Sized> PictureLoop::makeFrame(vk::Extent2D extent) {
-    // A slider can make a material ask for second surfaces. No frame is to wait for their passes then.
-    const renderer::FrameLimits limits{.framesInFlight = settings_.framesInFlight,
-                                       .lights = settings_.lights,
-                                       .shadowLayers = settings_.shadowLayers,
-                                       .secondSurfaces = !drawn_.materials.empty()};
-    return std::make_unique<Sized>(Sized{renderer::Frame(device_, scene_, renderSettings(extent), limits), extent, 0});
-}
-
 void PictureLoop::makeSlots() {
     vk::raii::CommandBuffers buffers(gpu_.device, {.commandPool = *pool_,
                                                    .level = vk::CommandBufferLevel::ePrimary,
@@ -97,47 +78,33 @@ void PictureLoop::makeSlots() {
 
 void PictureLoop::attachAll() {
     accumulation_ =
-        std::make_unique<Accumulation>(gpu_, full_->extent, drawn_.materials.size(), settings_.framesInFlight);
-    full_->pass = accumulation_->attach(full_->frame.images());
-    if (coarse_) {
-        coarse_->pass = accumulation_->attach(coarse_->frame.images());
-    }
+        std::make_unique<Accumulation>(gpu_, extent(), frames_.drawn().materials.size(), settings_.framesInFlight);
+    frames_.attach(*accumulation_);
     if (!given_.values.empty()) {
-        accumulation_->setGiven(given_, full_->extent);
+        accumulation_->setGiven(given_, extent());
     }
-}
-
-vk::Extent2D PictureLoop::coarseExtent() const {
-    const double share = std::clamp(std::sqrt(settings_.tolerableMilliseconds * 1e3 / report_.totalMicroseconds),
-                                    coarsestShare, finestCoarseShare);
-    return shrunk(extent(), share);
 }
 
 /// The first frame draws the shadow maps; the second is as slow as those that follow.
 void PictureLoop::makeCoarse() {
-    const bool known = framesFinished_ >= 2 && report_.totalMicroseconds > 0;
-    if (coarse_ || !known || report_.totalMicroseconds < settings_.tolerableMilliseconds * 1e3) {
+    const double tolerable = settings_.tolerableMilliseconds * 1e3;
+    if (frames_.coarse() != nullptr || framesFinished_ < 2 || report_.totalMicroseconds <= tolerable) {
         return;
     }
-    coarse_ = makeFrame(coarseExtent());
-    drawn_.apply(coarse_->frame);
-    coarse_->pass = accumulation_->attach(coarse_->frame.images());
+    const double share = std::clamp(std::sqrt(tolerable / report_.totalMicroseconds), coarsestShare, finestCoarseShare);
+    frames_.makeCoarse(share, sides_[0].effect, *accumulation_);
 }
 
-PictureLoop::Sized& PictureLoop::current() {
-    return isCoarse() ? *coarse_ : *full_;
+SizedFrame& PictureLoop::current() {
+    return isCoarse() ? *frames_.coarse() : frames_.full();
 }
 
 bool PictureLoop::isCoarse() const {
-    return moving_ && coarse_ != nullptr;
+    return moving_ && frames_.coarse() != nullptr;
 }
 
-template <typename Action> void PictureLoop::forEachFrame(const Action& action) {
-    action(full_->frame);
-    if (coarse_) {
-        action(coarse_->frame);
-    }
-    restart();
+vk::Extent2D PictureLoop::drawnExtent() const {
+    return isCoarse() ? frames_.coarse()->extent : extent();
 }
 
 void PictureLoop::restart() {
@@ -148,19 +115,17 @@ void PictureLoop::restart() {
 
 void PictureLoop::setSurface(vk::SurfaceKHR surface, std::function<vk::Extent2D()> windowExtent) {
     wait();
-    swapchain_.reset();
-    windowExtent_ = std::move(windowExtent);
+    windowImages_.reset();
     if (surface) {
-        swapchain_ = std::make_unique<renderer::Swapchain>(gpu_, surface);
-        windowChanged();
+        windowImages_.emplace(gpu_, surface, std::move(windowExtent));
+        showAgain_ = true;
     }
 }
 
 void PictureLoop::windowChanged() {
     showAgain_ = true;
-    if (swapchain_) {
-        swapchain_->rebuild(windowExtent_());
-        rebuilds_ = 0;
+    if (windowImages_) {
+        windowImages_->rebuild();
     }
 }
 
@@ -169,15 +134,9 @@ void PictureLoop::resize(std::uint32_t width, std::uint32_t height) {
         return;
     }
     wait();
-    const double share = coarse_ ? double(coarse_->extent.width) / settings_.width : 0;
-    full_->frame.resize(width, height);
+    frames_.resize({width, height});
     settings_.width = width;
     settings_.height = height;
-    full_->extent = extent();
-    if (coarse_) {
-        coarse_->extent = shrunk(extent(), share);
-        coarse_->frame.resize(coarse_->extent.width, coarse_->extent.height);
-    }
     translateErrors([&] { attachAll(); });
     showAgain_ = true;
 }
@@ -188,25 +147,24 @@ void PictureLoop::setCamera(const scene::Camera& camera) {
 }
 
 void PictureLoop::setMaterials(const std::vector<Material>& materials) {
-    forEachFrame([&](renderer::Frame& frame) { frame.setMaterials(materials); });
-    drawn_.materials = materials;
+    frames_.setMaterials(materials);
     radii_.clear();
+    restart();
 }
 
 void PictureLoop::setSurfaces(std::span<const scene::Surface> surfaces) {
-    forEachFrame([&](renderer::Frame& frame) { frame.setSurfaces(surfaces); });
-    drawn_.surfaces.assign(surfaces.begin(), surfaces.end());
+    frames_.setSurfaces(surfaces);
+    restart();
 }
 
 void PictureLoop::setLights(std::span<const scene::Light> lights) {
-    forEachFrame([&](renderer::Frame& frame) { frame.setLights(lights); });
-    drawn_.lights.assign(lights.begin(), lights.end());
+    frames_.setLights(lights);
+    restart();
 }
 
 void PictureLoop::setEnvironment(float intensity, float rotation) {
-    forEachFrame([&](renderer::Frame& frame) { frame.setEnvironment(intensity, rotation); });
-    drawn_.environmentIntensity = intensity;
-    drawn_.environmentRotation = rotation;
+    frames_.setEnvironment(intensity, rotation);
+    restart();
 }
 
 void PictureLoop::setSide(std::uint32_t side, const SideSettings& settings) {
@@ -222,7 +180,7 @@ void PictureLoop::setShown(const renderer::ShowLook& look) {
 void PictureLoop::setGiven(const Image& image) {
     wait();
     given_ = image;
-    accumulation_->setGiven(given_, full_->extent);
+    accumulation_->setGiven(given_, extent());
     for (std::uint32_t side = 0; side < Accumulation::sideCount; ++side) {
         if (sides_[side].look.image == ShownImage::Given) {
             accumulation_->restart(side);
@@ -235,7 +193,7 @@ void PictureLoop::setMoving(bool moving) {
         return;
     }
     moving_ = moving;
-    if (coarse_) {
+    if (frames_.coarse() != nullptr) {
         restart();
     }
 }
@@ -302,13 +260,12 @@ void PictureLoop::wait() {
 
 /// False where the window cannot show anything now.
 bool PictureLoop::prepareWindow() {
-    if (!swapchain_ || swapchain_->isUsable()) {
+    if (!windowImages_ || windowImages_->isUsable()) {
         return true;
     }
-    if (!swapchain_->rebuild(windowExtent_())) {
+    if (!windowImages_->rebuild()) {
         return false;
     }
-    rebuilds_ = 0;
     showAgain_ = true;
     return true;
 }
@@ -326,15 +283,15 @@ Step PictureLoop::step() {
             makeCoarse();
         }
         const std::optional<std::uint32_t> side = sideToDraw();
-        if (!side && !(showAgain_ && swapchain_)) {
+        if (!side && !(showAgain_ && windowImages_)) {
             return finishAll() ? Step::Converged : Step::Busy;
         }
         if (!prepareWindow()) {
             return Step::Hidden;
         }
         const auto begin = std::chrono::steady_clock::now();
-        const std::optional<renderer::Swapchain::Acquired> image = acquire(slot);
-        if (swapchain_ && !image) {
+        const std::optional<WindowImages::Image> image = acquire(slot);
+        if (windowImages_ && !image) {
             return Step::Busy;
         }
         try {
@@ -344,7 +301,8 @@ Step PictureLoop::step() {
                 recordFrame(slot, next_, *side);
             }
             if (image) {
-                recordWindow(slot.commands, next_, *image);
+                windowImages_->record(slot.commands, next_, *accumulation_, shown_, *image);
+                showAgain_ = false;
             }
             slot.commands.end();
             submit(slot, image);
@@ -364,21 +322,19 @@ Step PictureLoop::step() {
     });
 }
 
-std::optional<renderer::Swapchain::Acquired> PictureLoop::acquire(Slot& slot) {
-    if (!swapchain_) {
+std::optional<WindowImages::Image> PictureLoop::acquire(Slot& slot) {
+    if (!windowImages_) {
         return std::nullopt;
     }
-    if (rebuilds_ > slots_.size()) {
-        swapchain_->releaseRetired();
-    }
-    if (!accumulation_->hasRoomFor(swapchain_->extent())) {
+    windowImages_->releaseRetired(slots_.size());
+    if (!accumulation_->hasRoomFor(windowImages_->extent())) {
         wait();
-        accumulation_->makeRoomFor(swapchain_->extent());
+        accumulation_->makeRoomFor(windowImages_->extent());
     }
-    return swapchain_->acquire(*slot.imageFree);
+    return windowImages_->acquire(*slot.imageFree);
 }
 
-void PictureLoop::prepareEffect(Sized& sized, const renderer::EffectSettings& effect) {
+void PictureLoop::prepareEffect(SizedFrame& sized, const renderer::EffectSettings& effect) {
     if (!sized.frame.isPrepared(effect)) {
         wait();
         sized.frame.prepare(effect);
@@ -394,13 +350,14 @@ renderer::SampleLook PictureLoop::prepareLook(const renderer::SampleLook& look, 
         constexpr float ofOneSurface = 6; // bank_constants.h: bankSurfaceSeparation, bankSecondSeparation
         constexpr float ofTwoSurfaces = 2;
         result.pixelScale = pixelWidth(camera_, height);
-        result.separation = std::ranges::any_of(drawn_.materials, asksForSecondSurfaces) ? ofTwoSurfaces : ofOneSurface;
+        result.separation =
+            std::ranges::any_of(frames_.drawn().materials, asksForSecondSurfaces) ? ofTwoSurfaces : ofOneSurface;
     }
     if (look.image != ShownImage::Footprint) {
         return result;
     }
     if (radii_.empty()) {
-        for (const Material& material : drawn_.materials) {
+        for (const Material& material : frames_.drawn().materials) {
             const std::unique_ptr<Profile> profile = makeProfile(material);
             radii_.push_back(
                 static_cast<float>(std::max({profile->rmsRadius(0), profile->rmsRadius(1), profile->rmsRadius(2)})));
@@ -414,10 +371,10 @@ renderer::SampleLook PictureLoop::prepareLook(const renderer::SampleLook& look, 
 void PictureLoop::recordFrame(Slot& slot, std::uint32_t index, std::uint32_t side) {
     const SideSettings& settings = sides_[side];
     if (settings.look.image == ShownImage::Given) {
-        accumulation_->recordSample(slot.commands, index, full_->pass, side, full_->extent, settings.look, {});
+        accumulation_->recordSample(slot.commands, index, frames_.full().pass, side, extent(), settings.look, {});
         return;
     }
-    Sized& sized = current();
+    SizedFrame& sized = current();
     prepareEffect(sized, settings.effect);
     const std::uint32_t sample = moving_ ? 0 : accumulation_->samples(side);
     slot.drawn = &sized;
@@ -426,22 +383,7 @@ void PictureLoop::recordFrame(Slot& slot, std::uint32_t index, std::uint32_t sid
                                 prepareLook(settings.look, index, sized.extent.height), sized.frame.effectUse(index));
 }
 
-void PictureLoop::recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,
-                               const renderer::Swapchain::Acquired& image) {
-    const vk::Extent2D window = swapchain_->extent();
-    accumulation_->recordShow(commands, index, window, shown_, swapchain_->isSwapped());
-    // The semaphore is waited for by transfers, so that this barrier follows it.
-    const renderer::Usage before{vk::PipelineStageFlagBits2::eTransfer, {}, vk::ImageLayout::eUndefined};
-    const renderer::Usage after{vk::PipelineStageFlagBits2::eTransfer, {}, vk::ImageLayout::ePresentSrcKHR};
-    recordBarrier(commands, image.image, before, renderer::usage::transferWrite);
-    commands.copyBufferToImage(accumulation_->pixels(), image.image, vk::ImageLayout::eTransferDstOptimal,
-                               vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                                   .imageExtent = {window.width, window.height, 1}});
-    recordBarrier(commands, image.image, renderer::usage::transferWrite, after);
-    showAgain_ = false;
-}
-
-void PictureLoop::submit(Slot& slot, const std::optional<renderer::Swapchain::Acquired>& image) {
+void PictureLoop::submit(Slot& slot, const std::optional<WindowImages::Image>& image) {
     const vk::CommandBufferSubmitInfo commands{.commandBuffer = *slot.commands};
     vk::SemaphoreSubmitInfo free{.semaphore = *slot.imageFree, .stageMask = vk::PipelineStageFlagBits2::eTransfer};
     vk::SemaphoreSubmitInfo finished{.stageMask = vk::PipelineStageFlagBits2::eTransfer};
@@ -456,15 +398,14 @@ void PictureLoop::submit(Slot& slot, const std::optional<renderer::Swapchain::Ac
     gpu_.queue.submit2(info, *slot.fence);
     slot.inFlight = true;
     if (image) {
-        ++rebuilds_;
-        swapchain_->present(*image);
+        windowImages_->present(*image);
     }
 }
 
 void PictureLoop::reloadShaders() {
     wait();
-    full_->frame.reloadShaders();
-    forEachFrame([&](renderer::Frame& frame) { frame.prepare(frame.settings()); });
+    frames_.reloadShaders();
+    restart();
 }
 
 renderer::SidePicture PictureLoop::read(std::uint32_t side) {
@@ -482,9 +423,10 @@ Image PictureLoop::readImage(renderer::Output output) {
     for (std::uint32_t index = 0; index < slots_.size(); ++index) {
         const std::uint32_t last = (next_ + 2 * static_cast<std::uint32_t>(slots_.size()) - 1 - index) %
                                    static_cast<std::uint32_t>(slots_.size());
-        if (slots_[last].drawn == full_.get()) {
+        if (slots_[last].drawn == &frames_.full()) {
             return translateErrors([&] {
-                return renderer::readOutput(gpu_, output, full_->frame.images(), full_->frame.effectUse(last));
+                return renderer::readOutput(gpu_, output, frames_.full().frame.images(),
+                                            frames_.full().frame.effectUse(last));
             });
         }
     }

@@ -4,8 +4,8 @@
 
 #include "renderer/accumulation.hpp"
 #include "renderer/offscreen.hpp"
-#include "renderer/vulkan/swapchain.hpp"
-#include "view/loop/drawn_scene.hpp"
+#include "view/loop/sized_frames.hpp"
+#include "view/loop/window_images.hpp"
 
 #include <array>
 #include <functional>
@@ -82,7 +82,8 @@ public:
     /// Whether pictures are now drawn with fewer pixels.
     bool isCoarse() const;
     vk::Extent2D extent() const { return {settings_.width, settings_.height}; }
-    vk::Extent2D coarseExtent() const;
+    /// The size of the frames that are now drawn.
+    vk::Extent2D drawnExtent() const;
     const LoopSettings& settings() const { return settings_; }
     renderer::SidePicture read(std::uint32_t side);
     /// What a window of this size shows: R G B, sRGB encoded. Waits for the device.
@@ -101,55 +102,39 @@ public:
     std::function<void(const renderer::FrameReport&)> onFinished;
 
 private:
-    /// A frame at one size, and its pass of the accumulation.
-    struct Sized {
-        renderer::Frame frame;
-        vk::Extent2D extent;
-        std::size_t pass = 0;
-    };
     struct Slot {
         vk::raii::CommandBuffer commands = nullptr;
         vk::raii::Fence fence = nullptr;
         vk::raii::Semaphore imageFree = nullptr;
         bool inFlight = false;
-        Sized* drawn = nullptr;
+        SizedFrame* drawn = nullptr;
     };
 
-    renderer::RenderSettings renderSettings(vk::Extent2D extent) const;
-    std::unique_ptr<Sized> makeFrame(vk::Extent2D extent);
     void makeSlots();
     void attachAll();
     void makeCoarse();
-    Sized& current();
-    template <typename Action> void forEachFrame(const Action& action);
+    SizedFrame& current();
     void restart();
     bool finish(Slot& slot);
     bool finishAll();
     std::optional<std::uint32_t> sideToDraw() const;
     bool prepareWindow();
-    std::optional<renderer::Swapchain::Acquired> acquire(Slot& slot);
-    void prepareEffect(Sized& sized, const renderer::EffectSettings& effect);
+    std::optional<WindowImages::Image> acquire(Slot& slot);
+    void prepareEffect(SizedFrame& sized, const renderer::EffectSettings& effect);
     renderer::SampleLook prepareLook(const renderer::SampleLook& look, std::uint32_t index, std::uint32_t height);
     void recordFrame(Slot& slot, std::uint32_t index, std::uint32_t side);
-    void recordWindow(const vk::raii::CommandBuffer& commands, std::uint32_t index,
-                      const renderer::Swapchain::Acquired& image);
-    void submit(Slot& slot, const std::optional<renderer::Swapchain::Acquired>& image);
+    void submit(Slot& slot, const std::optional<WindowImages::Image>& image);
 
     renderer::Gpu& gpu_;
-    renderer::Device& device_;
     const scene::Scene& scene_;
     LoopSettings settings_;
-    std::unique_ptr<Sized> full_;
-    std::unique_ptr<Sized> coarse_; ///< where the device is too slow for `full_` while something moves
+    SizedFrames frames_;
     std::unique_ptr<renderer::Accumulation> accumulation_;
-    std::unique_ptr<renderer::Swapchain> swapchain_;
-    std::function<vk::Extent2D()> windowExtent_;
+    std::optional<WindowImages> windowImages_;
     vk::raii::CommandPool pool_;
     std::vector<Slot> slots_;
     std::uint32_t next_ = 0;
-    std::uint64_t rebuilds_ = 0; ///< frames submitted since the window's images were made anew
     scene::Camera camera_;
-    DrawnScene drawn_;
     std::vector<float> radii_; ///< of the materials, mm; made when they are first shown
     std::array<SideSettings, renderer::Accumulation::sideCount> sides_;
     renderer::ShowLook shown_;

@@ -280,7 +280,7 @@ void MainWindow::showStatus() {
         return;
     }
     const renderer::FrameReport& report = loop_->report();
-    const vk::Extent2D size = loop_->isCoarse() ? loop_->coarseExtent() : loop_->extent();
+    const vk::Extent2D size = loop_->drawnExtent();
     QString text = QString("%1 × %2 px").arg(size.width).arg(size.height);
     text += loop_->isCoarse() ? ", coarse while it moves"
             : loop_->isConverged()
