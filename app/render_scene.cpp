@@ -3,6 +3,7 @@
 #include "app/command.hpp"
 #include "app/material_source.hpp"
 #include "app/terminal_text.hpp"
+#include "core/files/quoted_text.hpp"
 #include "scene/default_view.hpp"
 #include "scene/gallery/gallery.hpp"
 #include "scene/import.hpp"
@@ -57,16 +58,6 @@ std::vector<Light> marked(const std::vector<Light>& lights, const std::vector<bo
         }
     }
     return result;
-}
-
-template <typename Item> std::string listNames(const std::vector<Item>& items) {
-    constexpr std::size_t most = 20;
-    std::string result;
-    for (const Item& item : std::span(items).first(std::min(items.size(), most))) {
-        result += (result.empty() ? "'" : ", '") + item.name + "'";
-    }
-    const std::string more = items.size() > most ? " and " + std::to_string(items.size() - most) + " more" : "";
-    return result.empty() ? "none" : result + more;
 }
 
 std::optional<std::size_t> parseIndex(const std::string& text) {

@@ -1,5 +1,7 @@
 #include "scene/blending.hpp"
 
+#include "core/files/quoted_text.hpp"
+
 #include <algorithm>
 
 namespace nacre::scene {
@@ -43,8 +45,8 @@ void settleBlending(Scene& scene, const std::filesystem::path& file) {
         } else if (surface.material != none) {
             surface.alphaMode = AlphaMode::Mask;
             surface.alphaCutoff = 0.5f;
-            scene.notes.push_back(file.string() + ": the surface \"" + surface.name +
-                                  "\" scatters light and is not blended: what has an alpha below 0.5 is left out, the "
+            scene.notes.push_back(file.string() + ": the surface " + inQuotes(surface.name) +
+                                  " scatters light and is not blended: what has an alpha below 0.5 is left out, the "
                                   "rest is opaque");
         }
     }

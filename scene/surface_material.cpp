@@ -1,5 +1,7 @@
 #include "scene/surface_material.hpp"
 
+#include "core/files/quoted_text.hpp"
+
 #include <algorithm>
 
 namespace nacre::scene {
@@ -39,7 +41,8 @@ void setBodyMaterial(Scene& scene, std::uint32_t material, const std::string& wh
         if (all || isBody(surface)) {
             setSurfaceMaterial(scene, surface, material);
         } else {
-            scene.notes.push_back(where + " is not given to the surface \"" + surface.name + "\", which is blended");
+            scene.notes.push_back(where + " is not given to the surface " + inQuotes(surface.name) +
+                                  ", which is blended");
         }
     }
 }
@@ -48,7 +51,7 @@ void assignMaterial(Scene& scene, const Material& material) {
     const auto scatters = [](const Surface& surface) { return surface.material != none; };
     const bool all = std::ranges::none_of(scene.surfaces, scatters);
     scene.materials.clear();
-    const std::string where = "material '" + material.name + "'";
+    const std::string where = "material '" + withoutMiddle(material.name, 100) + "'";
     addMaterial(scene, material, where);
     if (all) {
         setBodyMaterial(scene, 0, where);

@@ -1,5 +1,6 @@
 #include "scene/assimp/assimp_files.hpp"
 
+#include "core/files/quoted_text.hpp"
 #include "nacre/files.hpp"
 #include "scene/assimp/assimp_text.hpp"
 #include "scene/json_text.hpp"
@@ -78,8 +79,8 @@ Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
 std::vector<std::string> AssimpFiles::notes() const {
     std::vector<std::string> notes;
     if (!hasLibrary_ && !missingLibraries_.empty()) {
-        notes.push_back(model_.string() + ": names \"" + missingLibraries_.front() +
-                        "\", which is not there; its materials are left out");
+        notes.push_back(model_.string() + ": names " + inQuotes(missingLibraries_.front()) +
+                        ", which is not there; its materials are left out");
     }
     std::vector<std::string> unknown;
     std::ranges::set_difference(usedMaterials_, knownMaterials_, std::back_inserter(unknown));

@@ -1,5 +1,6 @@
 #include "scene/assimp/assimp_import.hpp"
 
+#include "core/files/quoted_text.hpp"
 #include "image/color.hpp"
 #include "nacre/files.hpp"
 #include "scene/assimp/assimp_axes.hpp"
@@ -88,8 +89,8 @@ private:
         const glm::mat4 transform = parent * convert(node.mTransformation);
         for (int i = 0; i < 16; ++i) {
             if (!(std::abs(transform[i / 4][i % 4]) <= maxCoordinate)) {
-                throw SceneError(name_ + ": node \"" + node.mName.C_Str() +
-                                 "\" has a transform that is not finite or beyond 1e15");
+                throw SceneError(name_ + ": node " + inQuotes(node.mName.C_Str()) +
+                                 " has a transform that is not finite or beyond 1e15");
             }
         }
         placed_.emplace(node.mName.C_Str(), transform);
@@ -164,7 +165,7 @@ private:
         if (mesh.indices.empty()) {
             return none;
         }
-        checkMesh(mesh, name_ + ": mesh \"" + mesh.name + "\"");
+        checkMesh(mesh, name_ + ": mesh " + inQuotes(mesh.name));
         if (hasNormals) {
             repairNormals(mesh);
             weldVertices(mesh);
@@ -266,7 +267,7 @@ private:
         const float turn = glm::length(glm::cross(forward, camera.up));
         if (!std::isfinite(turn) || turn == 0 || !std::isfinite(glm::length(camera.position)) || !(field > 0.01f) ||
             !(field < 3.1f)) {
-            scene_.notes.push_back(name_ + ": camera \"" + camera.name + "\" looks nowhere and is left out");
+            scene_.notes.push_back(name_ + ": camera " + inQuotes(camera.name) + " looks nowhere and is left out");
             return;
         }
         camera.target = camera.position + glm::normalize(forward);

@@ -1,5 +1,6 @@
 #include "scene/assimp/assimp_material.hpp"
 
+#include "core/files/quoted_text.hpp"
 #include "image/image_file.hpp"
 #include "scene/named_file.hpp"
 #include "scene/texture.hpp"
@@ -115,8 +116,8 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::span<con
         const Wrap wrapV = wrapOf(modes[1]);
         const auto [entry, isNew] = textures_.try_emplace({reference, srgb, wrapU, wrapV}, none);
         if (isNew) {
-            const std::string field =
-                file_.string() + ": material \"" + material.GetName().C_Str() + "\": texture \"" + reference + "\"";
+            const std::string field = file_.string() + ": material " + inQuotes(material.GetName().C_Str()) +
+                                      ": texture " + inQuotes(reference);
             try {
                 scene_.textures.push_back(load(reference, field, srgb));
                 scene_.textures.back().wrapU = wrapU;

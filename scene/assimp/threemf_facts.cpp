@@ -1,5 +1,6 @@
 #include "scene/assimp/threemf_facts.hpp"
 
+#include "core/files/quoted_text.hpp"
 #include "scene/scene.hpp"
 
 #include <algorithm>
@@ -82,8 +83,8 @@ ThreemfFacts readThreemfFacts(const std::filesystem::path& file) {
     const std::string_view named = unit.empty() ? "millimeter" : unit;
     const auto* found = std::ranges::find(threemfUnits, named, &ThreemfUnit::name);
     if (found == threemfUnits.end()) {
-        throw SceneError(file.string() + ": the model's unit is \"" + std::string(named) +
-                         "\", must be micron, millimeter, centimeter, inch, foot or meter");
+        throw SceneError(file.string() + ": the model's unit is " + inQuotes(named) +
+                         ", must be micron, millimeter, centimeter, inch, foot or meter");
     }
     const bool hasColors = head.find("colorgroup") != head.npos || head.find("texture2dgroup") != head.npos;
     return {found->meters, hasColors};

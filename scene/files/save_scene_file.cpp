@@ -1,5 +1,6 @@
 #include "scene/files/save_scene_file.hpp"
 
+#include "core/files/quoted_text.hpp"
 #include "nacre/presets.hpp"
 #include "scene/files/scene_file_light.hpp"
 #include "scene/files/scene_file_material.hpp"
@@ -228,8 +229,9 @@ private:
 
     void setNamed(Json& named, const std::string& name, Json value) const {
         if (named.contains(name) && named[name] != value) {
-            throw SceneError(target_.string() + ": cannot be written: the model has several surfaces called \"" + name +
-                             "\" that are not alike, and a scene file tells surfaces apart by their names");
+            throw SceneError(target_.string() + ": cannot be written: the model has several surfaces called " +
+                             inQuotes(name) +
+                             " that are not alike, and a scene file tells surfaces apart by their names");
         }
         named[name] = std::move(value);
     }

@@ -1,9 +1,9 @@
 // Checked reads of a JSON object: every error names the file, the field and the value.
 #pragma once
 
+#include "core/files/quoted_text.hpp"
 #include "scene/scene.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -54,7 +54,10 @@ public:
     [[noreturn]] void refuse(const char* key, const std::string& expected) const;
     /// Throws SceneError for members that were not asked for, and lists those that were.
     void finish() const;
-    std::string fieldOf(const std::string& key) const { return field_.empty() ? key : field_ + "." + key; }
+    /// The member's path in the file, as sentences name it.
+    std::string fieldOf(const std::string& key) const {
+        return withoutMiddle(field_.empty() ? key : field_ + "." + key);
+    }
     const std::string& file() const { return file_; }
     const nlohmann::json& json() const { return *json_; }
 
@@ -67,16 +70,6 @@ private:
     std::string field_;
     std::vector<std::string> known_;
 };
-
-/// The names of items, quoted, as a sentence lists them: the first twenty.
-template <typename Item> std::string listNames(const std::vector<Item>& items) {
-    constexpr std::size_t most = 20;
-    std::string result;
-    for (std::size_t i = 0; i < std::min(items.size(), most); ++i) {
-        result += (result.empty() ? "\"" : ", \"") + items[i].name + "\"";
-    }
-    return items.size() > most ? result + " and " + std::to_string(items.size() - most) + " more" : result;
-}
 
 /// JSON text in which no key is given twice; throws SceneError with the line and column of a mistake.
 nlohmann::json parseSceneJson(const std::string& file, std::span<const std::uint8_t> bytes);

@@ -29,7 +29,7 @@ template <typename Read> void refusing(const Read& read) {
         read();
     } catch (const FileError& error) {
         const std::string sentence = error.what();
-        if (sentence.empty() || sentence.size() > 4096) {
+        if (sentence.empty() || sentence.size() > mostOfSentence) {
             std::abort();
         }
     }

@@ -86,6 +86,9 @@ void requireSound(const scene::Scene& scene) {
     for (const scene::Camera& camera : scene.cameras) {
         require(isFinite(camera.position) && isFinite(camera.target) && isFinite(camera.up), "camera's vectors");
     }
+    for (const std::string& note : scene.notes) {
+        require(!note.empty() && note.size() <= mostOfSentence, "notes");
+    }
     require(scene.metersPerUnit > 0 && std::isfinite(scene.metersPerUnit), "metersPerUnit");
 }
 

@@ -5,8 +5,11 @@
 
 namespace nacre::fuzz {
 
+/// [bytes] No sentence is longer, whatever it quotes.
+inline constexpr std::size_t mostOfSentence = 4096;
+
 /// Ends the process with a message unless every index of the scene is in range, every texture has its pixels, every
-/// material is valid, and every number is finite.
+/// material is valid, every number is finite, and every note is a sentence.
 void requireSound(const scene::Scene& scene);
 
 } // namespace nacre::fuzz

@@ -1,6 +1,7 @@
 // Scene files: what they place, what they refuse, and that the schema says the same as the reader.
 #include "scene/files/scene_file.hpp"
 
+#include "core/files/quoted_text.hpp"
 #include "image/image_file.hpp"
 #include "nacre/presets.hpp"
 #include "scene/files/save_scene_file.hpp"
@@ -240,6 +241,23 @@ TEST_F(SceneFile, NamesTheFieldThatIsWrong) {
         json[at.parent_pointer()].erase(at.back());
         EXPECT_NE(error(json).find(at.back() + " is missing"), std::string::npos) << error(json);
     }
+}
+
+TEST_F(SceneFile, IsRefusedInAShortSentenceWhateverItQuotes) {
+    const std::string name = std::string(10'000, 'x') + "end";
+    const std::pair<const char*, Json> longOnes[] = {
+        {"/models/0/material", name},    {"/models/0/materials", {{name, "skin"}}},
+        {"/models/0/instances", {name}}, {"/models/0/surfaces", {{name, 1}}},
+        {"/models/0", {{name, 1}}},      {"/environment/image", name}};
+    for (const auto& [pointer, value] : longOnes) {
+        Json json = everything();
+        json[Json::json_pointer(pointer)] = value;
+        const std::string sentence = error(json);
+        EXPECT_TRUE(sentence.starts_with("scene.json: ")) << sentence;
+        EXPECT_LT(sentence.size(), 1000u) << pointer;
+    }
+    EXPECT_EQ(nacre::listNames(std::vector<Light>{}), "none");
+    EXPECT_LT(nacre::listNames(std::vector<Light>(30, Light{.name = name})).size(), 3000u);
 }
 
 TEST_F(SceneFile, NamesOnlyFilesBesideItOrBelow) {
