@@ -117,7 +117,7 @@ std::uint32_t AssimpMaterials::texture(const aiMaterial& material, std::span<con
         const auto [entry, isNew] = textures_.try_emplace({reference, srgb, wrapU, wrapV}, none);
         if (isNew) {
             const std::string field = file_.string() + ": material " + inQuotes(material.GetName().C_Str()) +
-                                      ": texture " + inQuotes(reference);
+                                      ": texture \"" + withoutMiddle(reference) + "\"";
             try {
                 scene_.textures.push_back(load(reference, field, srgb));
                 scene_.textures.back().wrapU = wrapU;
