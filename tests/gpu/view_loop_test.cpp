@@ -489,7 +489,7 @@ TEST(ViewReference, ClosingWhileItRunsTakesLessThanASecondOfProcessor) {
 }
 
 TEST(ViewReference, ClosingBeforeItsFirstSampleTakesLessThanASecondOfProcessor) {
-    auto task = std::make_unique<view::ReferenceTask>(ballScene(), ballScene().cameras[0], 2048, 2048);
+    auto task = std::make_unique<view::ReferenceTask>(ballScene(), ballScene().cameras[0], 1024, 1024);
     std::this_thread::sleep_for(std::chrono::milliseconds(100)); // it looks where the picture shows a surface
     EXPECT_EQ(task->state().samples, 0);
     const double begin = tests::processorSeconds();
