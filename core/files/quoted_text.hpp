@@ -13,9 +13,10 @@ inline std::string withoutMiddle(std::string_view text, std::size_t most = 400) 
     if (text.size() <= most) {
         return std::string(text);
     }
-    // A cut moves to where a character of UTF-8 begins.
+    // A cut moves to where a character of UTF-8 begins, which has at most three more bytes.
     const auto cut = [&](std::size_t at) {
-        while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u) {
+        const std::size_t last = std::min(at + 3, text.size());
+        while (at < last && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u) {
             ++at;
         }
         return at;
