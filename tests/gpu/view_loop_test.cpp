@@ -489,8 +489,11 @@ TEST(ViewReference, ClosingWhileItRunsTakesLessThanASecondOfProcessor) {
 }
 
 TEST(ViewReference, ClosingBeforeItsFirstSampleTakesLessThanASecondOfProcessor) {
-    auto task = std::make_unique<view::ReferenceTask>(ballScene(), ballScene().cameras[0], 1024, 1024);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100)); // it looks where the picture shows a surface
+    const double start = tests::processorSeconds();
+    auto task = std::make_unique<view::ReferenceTask>(ballScene(), ballScene().cameras[0], 2048, 2048);
+    while (tests::processorSeconds() - start < 0.4) { // it has its film, and looks where the picture shows a surface
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     EXPECT_EQ(task->state().samples, 0);
     const double begin = tests::processorSeconds();
     task.reset();
