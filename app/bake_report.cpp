@@ -1,6 +1,6 @@
 #include "app/bake_report.hpp"
 
-#include "app/scene_report.hpp"
+#include "app/json_report.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -52,7 +52,7 @@ std::string makeReport(const BakeOptions& options, const BakeResult& result) {
         report["white"] = result.white;
         report["thicknessFactor"] = result.white / millimetresPerMetre;
     }
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return formatReport(report);
 }
 
 std::string describeBake(const BakeOptions& options, const BakeResult& result) {

@@ -1,5 +1,7 @@
 #include "app/compare_report.hpp"
 
+#include "app/json_report.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -185,7 +187,7 @@ std::string makeComparisonReport(const CompareOptions& options, const CompareInp
     if (!options.heat.empty()) {
         report["files"].push_back({{"image", "heat"}, {"file", options.heat.string()}, {"range", 1}});
     }
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return formatReport(report);
 }
 
 } // namespace nacre::app

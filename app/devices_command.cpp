@@ -1,5 +1,6 @@
 // `nacre devices`: the Vulkan devices of this machine.
 #include "app/command.hpp"
+#include "app/json_report.hpp"
 #include "renderer/graphics_device.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,7 +22,7 @@ std::string toJson(const std::vector<renderer::DeviceDescription>& devices) {
                         {"usable", device.usable},
                         {"reason", device.reason}});
     }
-    return nlohmann::ordered_json{{"schemaVersion", 1}, {"devices", list}}.dump(2) + '\n';
+    return formatReport({{"schemaVersion", 1}, {"devices", list}});
 }
 
 std::string toText(const std::vector<renderer::DeviceDescription>& devices) {

@@ -1,5 +1,6 @@
 // `nacre material`: the presets, what a material does, and whether a material file is right.
 #include "app/command.hpp"
+#include "app/json_report.hpp"
 #include "app/material_fit.hpp"
 #include "app/material_plot.hpp"
 #include "app/material_source.hpp"
@@ -32,7 +33,7 @@ void listMaterials(const std::filesystem::path& json) {
         for (const Material& material : presets()) {
             list.push_back({{"name", material.name}, {"description", material.description}});
         }
-        writeText(json, nlohmann::ordered_json{{"schemaVersion", 1}, {"materials", list}}.dump(2) + '\n');
+        writeText(json, formatReport({{"schemaVersion", 1}, {"materials", list}}));
         return;
     }
     for (const Material& material : presets()) {
@@ -138,6 +139,15 @@ struct ImportOptions {
     std::filesystem::path json;
 };
 
+/// The material as a file. Throws FileError, naming the document.
+std::string formatImported(const Material& material, const std::filesystem::path& document) {
+    try {
+        return formatMaterial(material);
+    } catch (const FileError& error) {
+        throw FileError(document.string() + ": " + error.what());
+    }
+}
+
 void importMaterial(const ImportOptions& options) {
     requireDistinctFiles({options.document, options.json});
     if (!options.json.empty()) {
@@ -153,7 +163,7 @@ void importMaterial(const ImportOptions& options) {
     if (options.json.empty()) {
         std::cout << describeMaterial(material) << std::flush;
     } else {
-        writeText(options.json, formatMaterial(material));
+        writeText(options.json, formatImported(material, options.document));
     }
     for (const std::string& note : notes) {
         std::cerr << "nacre: note: " << printable(note) << '\n';

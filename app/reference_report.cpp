@@ -1,6 +1,6 @@
 #include "app/reference_report.hpp"
 
-#include "app/scene_report.hpp"
+#include "app/json_report.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -53,7 +53,7 @@ std::string makeReport(const ReferenceResult& result) {
                       {"samplesPerSecond", result.samplesPerSecond},
                       {"warnings", result.warnings},
                       {"file", result.file.string()}};
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return formatReport(report);
 }
 
 } // namespace nacre::app

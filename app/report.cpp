@@ -1,7 +1,7 @@
 #include "app/report.hpp"
 
+#include "app/json_report.hpp"
 #include "app/render_scene.hpp"
-#include "app/scene_report.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -107,7 +107,7 @@ std::string makeReport(const RenderOptions& options, const scene::Scene& scene, 
                       {"frame", describe(frame)},
                       {"files", describeFiles(options)},
                       {"validationMessages", validationMessages}};
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return formatReport(report);
 }
 
 } // namespace nacre::app

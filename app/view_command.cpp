@@ -1,7 +1,7 @@
 // `nacre view`: a window to build materials in.
 #include "app/command.hpp"
+#include "app/json_report.hpp"
 #include "app/render_scene.hpp"
-#include "app/scene_report.hpp"
 #include "app/view_report.hpp"
 #include "view/loop/headless.hpp"
 

@@ -1,5 +1,7 @@
 #include "app/view_report.hpp"
 
+#include "app/json_report.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -78,7 +80,7 @@ std::string makeReport(const renderer::DeviceDescription& device, const nlohmann
     for (const NamedRun& run : runs) {
         report["runs"].push_back(toJson(run));
     }
-    return report.dump(2) + "\n";
+    return formatReport(report);
 }
 
 } // namespace nacre::app

@@ -78,6 +78,9 @@ TEST_F(MaterialTest, ImportReadsMaterialX) {
     EXPECT_TRUE(shown.output.starts_with("wax: open_pbr_surface of wax.mtlx\n")) << shown.output;
     EXPECT_EQ(shown.error, "");
     nacre::test::expectComplaint(run({"material", "import", "wax.mtlx", "--name", "soap"}), 1, {"wax.mtlx", "soap"});
+    std::filesystem::copy_file(folder() / "wax.mtlx", folder() / "w\xe4x.mtlx");
+    nacre::test::expectComplaint(run({"material", "import", "w\xe4x.mtlx", "--json", "other.json"}), 1,
+                                 {"w\\xe4x.mtlx: the name", "not UTF-8"});
     nacre::test::expectComplaint(run({"material", "import", "wax.mtlx", "--units", "ell"}), 2, {"--units", "ell"});
     nacre::test::expectComplaint(run({"material", "import", "wax.mtlx", "--json", "./wax.mtlx"}), 2, {"same file"});
     nacre::test::expectComplaint(run({"material", "import", "none.mtlx"}), 1, {"none.mtlx"});
