@@ -256,11 +256,46 @@ private:
     bool sourceIsScene_;
 };
 
+bool isUtf8(const std::string& text) {
+    try {
+        static_cast<void>(Json(text).dump());
+    } catch (const Json::exception&) {
+        return false;
+    }
+    return true;
+}
+
+/// The first text that is not UTF-8, with its field; empty where all are.
+std::string findOtherText(const Json& json, const std::string& field) {
+    if (json.is_string()) {
+        const std::string text = json.get<std::string>();
+        return isUtf8(text) ? "" : field + " is " + inQuotes(text);
+    }
+    std::string found;
+    if (!json.is_structured()) {
+        return found;
+    }
+    for (const auto& [key, value] : json.items()) {
+        const std::string member = json.is_array() ? field + '[' + key + ']' : field + (field.empty() ? "" : ".") + key;
+        found = found.empty() ? findOtherText(value, member) : found;
+        found = found.empty() && json.is_object() && !isUtf8(key) ? field + " has the key " + inQuotes(key) : found;
+    }
+    return found;
+}
+
+/// Files and what a model has are named in any bytes, a scene file is UTF-8.
+std::string formatScene(const Json& json, const fs::path& target) {
+    if (const std::string found = findOtherText(json, ""); !found.empty()) {
+        throw SceneError(target.string() + ": cannot be written: " + found + ", which is not UTF-8");
+    }
+    return json.dump(4) + "\n";
+}
+
 } // namespace
 
 void saveSceneFile(const Scene& scene, const std::vector<Surface>& read, const std::filesystem::path& source,
                    const std::filesystem::path& target) {
-    const std::string text = SceneFileWriter(scene, read, source, target).write().dump(4) + "\n";
+    const std::string text = formatScene(SceneFileWriter(scene, read, source, target).write(), target);
     writeFileAtomically(target, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 

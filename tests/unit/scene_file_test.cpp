@@ -485,6 +485,34 @@ TEST_F(SceneFile, IsNotSavedWhereItCouldNotBeRead) {
     EXPECT_FALSE(fs::exists(folder / "below/scene.json"));
 }
 
+/// Files and what models have are named in any bytes.
+TEST_F(SceneFile, IsNotSavedWithNamesThatAreNotUtf8) {
+    const fs::path target = folder / "saved.json";
+    const auto sentence = [&](const fs::path& source, const auto& edit) {
+        Scene scene = load(source);
+        const std::vector<Surface> read = scene.surfaces;
+        edit(scene);
+        try {
+            saveSceneFile(scene, read, source, target);
+        } catch (const FileError& failure) {
+            return std::string(failure.what());
+        }
+        return std::string("it was saved");
+    };
+    const std::string start = target.string() + ": cannot be written: ";
+    const std::string end = ", which is not UTF-8";
+    const fs::path model = folder / "h\xf6hle.obj";
+    fs::copy_file(folder / "triangle.obj", model);
+    EXPECT_EQ(sentence(model, [](Scene&) {}), start + "models[0].model is \"h\xf6hle.obj\"" + end);
+    EXPECT_EQ(sentence(folder / "triangle.obj", [](Scene& scene) { scene.lights = {{.name = "l\xe4mp"}}; }),
+              start + "lights[0].name is \"l\xe4mp\"" + end);
+    std::ofstream(folder / "named.mtl") << "newmtl h\xf6lz\nKd 1 0 0\n";
+    std::ofstream(folder / "named.obj") << "mtllib named.mtl\nusemtl h\xf6lz\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(sentence(folder / "named.obj", [](Scene& scene) { scene.surfaces.at(0).roughness = 0.9f; }),
+              start + "models[0].surfaces has the key \"h\xf6lz\"" + end);
+    EXPECT_FALSE(fs::exists(target));
+}
+
 TEST(Scenes, ExamplesLoad) {
     for (const fs::directory_entry& entry : fs::directory_iterator(NACRE_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() == ".glb") {
