@@ -95,6 +95,14 @@ TEST_F(ViewTest, HeadlessSaysWhatFramesTakeWithLightsStillAndMoving) {
     }
 }
 
+TEST_F(ViewTest, AReportNamesAFileWhoseNameIsNotUtf8) {
+    std::filesystem::copy_file(folder() / "cube.obj", folder() / "w\xfcrfel.obj");
+    const Outcome outcome = run({"view", "w\xfcrfel.obj", "--headless", "--frames", "2", "--moving", "nothing",
+                                 "--size", "32x18", "--shadow-map-size", "64", "--json", "frames.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
+    EXPECT_EQ(Json::parse(bytes("frames.json")).at("scene").at("name"), "w\ufffdrfel.obj");
+}
+
 TEST_F(ViewTest, ATurntablesFrameIsTheSameWhoeverDrawsIt) {
     const auto turntable = [&](const std::string& frames, const std::string& output) {
         const Outcome outcome = run({"view", "cube.obj", "--material", "wax", "--turntable", "3", "--frames", frames,
@@ -216,17 +224,20 @@ TEST_F(ViewTest, AScriptUsesOnlyWhatIsOnTheScreen) {
                     {"'compare.second'", "not on the screen"});
 }
 
-/// A program that is killed leaves what was edited to the next one.
+/// A program that is killed leaves what was edited to the next one, in another folder, too, and for every file name.
 TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
-    const Json edits{{{"set", "material.scale"}, {"value", 6}},
+    const std::string model = "w\xfcrfel.obj";
+    std::filesystem::rename(folder() / "cube.obj", folder() / model);
+    const Json edits{{{"choose", "material.preset"}, {"item", "skin"}},
+                     {{"set", "material.scale"}, {"value", 6}},
                      {{"panel", "Light"}},
                      {{"click", "light.remove"}},
                      {{"wait", true}},
                      {{"picture", "edited.png"}},
                      {{"pause", 60'000}}};
     writeText(folder() / "killed.json", Json{{"size", {500, 300}}, {"samples", 2}, {"steps", edits}}.dump());
-    const nacre::test::RunningNacre running({"view", "cube.obj", "--material", "skin", "--script", "killed.json"},
-                                            folder(), environmentOf(offscreen));
+    const nacre::test::RunningNacre running({"view", model, "--script", "killed.json"}, folder(),
+                                            environmentOf(offscreen));
     const std::filesystem::path kept = folder() / "nacre/nacre";
     const auto isThere = [&] {
         return std::filesystem::exists(folder() / "edited.png") && std::filesystem::exists(kept) &&
@@ -238,10 +249,14 @@ TEST_F(ViewTest, WhatACrashLeavesIsOfferedAgain) {
     ASSERT_TRUE(isThere());
     running.send(SIGKILL);
     EXPECT_EQ(running.wait().exitCode, 128 + SIGKILL);
+    const std::filesystem::path elsewhere = folder() / "elsewhere";
+    std::filesystem::create_directory(elsewhere);
+    const Json steps{{{"recover", true}}, {{"wait", true}}, {{"picture", "recovered.png"}}};
+    writeText(elsewhere / "script.json", Json{{"size", {500, 300}}, {"samples", 2}, {"steps", steps}}.dump());
     const Outcome outcome =
-        runScript({{{"recover", true}}, {{"wait", true}}, {{"picture", "recovered.png"}}}, offscreen);
+        nacre::test::runNacre({"view", "--script", "script.json"}, elsewhere, environmentOf(offscreen));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.error;
-    EXPECT_EQ(bytes("recovered.png"), bytes("edited.png"));
+    EXPECT_EQ(bytes("elsewhere/recovered.png"), bytes("edited.png"));
     EXPECT_TRUE(std::filesystem::is_empty(kept)) << "it would be offered once more";
 }
 

@@ -2,7 +2,7 @@
 #include "image/metrics.hpp"
 #include "nacre/presets.hpp"
 #include "tests/gpu/support/recording_calls.hpp"
-#include "tests/gpu/support/renderer_scenes.hpp"
+#include "tests/gpu/support/view_scene.hpp"
 #include "tests/support/bank_twin.hpp"
 #include "tests/support/processor_time.hpp"
 #include "view/loop/headless.hpp"
@@ -10,13 +10,8 @@
 #include "view/loop/reference_task.hpp"
 #include "view/loop/side_error.hpp"
 #include "view/loop/swatch.hpp"
-#include "view/model/edited_file.hpp"
 #include "view/model/edited_scene.hpp"
 #include "view/model/inspection.hpp"
-#include "view/model/light_handles.hpp"
-#include "view/model/material_structs.hpp"
-#include "view/model/recipes.hpp"
-#include "view/model/window_colors.hpp"
 
 #include "trace/geometry.hpp"
 
@@ -32,18 +27,6 @@ using view::PictureLoop;
 using view::Step;
 
 constexpr std::uint32_t side = 48;
-
-/// A ball of the first preset over a ground without a material, a light in front of and one behind it.
-scene::Scene ballScene() {
-    scene::Scene scene = darkScene(3);
-    scene.environment.intensity = 0.2f;
-    scene.metersPerUnit = 0.02;
-    scene.materials = {presets().front()};
-    add(scene, square(4), glm::translate(glm::mat4(1), {0, 0, -0.6f}));
-    add(scene, sphere(0.5f, 12)).material = 0;
-    scene.lights = {directional({0.3f, -0.5f, -1}, 2), directional({0.1f, -0.2f, 1}, 2)};
-    return scene;
-}
 
 view::LoopSettings smallLoop() {
     view::LoopSettings settings;
@@ -347,58 +330,6 @@ TEST_F(ViewLoop, AWindowHasTheMarksOfLights) {
     loop_->setShown({});
 }
 
-TEST(ViewHandles, FollowTheMouse) {
-    scene::Camera camera;
-    camera.position = {1, 2, 5};
-    camera.target = {0.5f, 0, 0};
-    constexpr float aspect = 1.5f;
-    for (const scene::LightKind kind :
-         {scene::LightKind::Directional, scene::LightKind::Spot, scene::LightKind::Point}) {
-        const scene::Light light = view::newLight(kind, camera, 1);
-        const std::vector<scene::Light> one{light};
-        ASSERT_EQ(view::lightHandles(one, camera, aspect).size(), 1u);
-        for (const bool behind : {false, true}) {
-            const glm::vec2 place(0.45f, 0.6f);
-            const auto dragged = view::draggedLight(light, camera, aspect, place, view::LightDrag::Move, behind);
-            ASSERT_TRUE(dragged);
-            const view::LightHandle handle = view::lightHandles(std::vector{*dragged}, camera, aspect).at(0);
-            EXPECT_NEAR(glm::distance(handle.place, place), 0, 1e-4f);
-            EXPECT_TRUE(kind != scene::LightKind::Directional || handle.behind == behind);
-        }
-    }
-    const scene::Light sun = view::newLight(scene::LightKind::Directional, camera, 1);
-    EXPECT_FALSE(view::draggedLight(sun, camera, aspect, {0.99f, 0.5f}, view::LightDrag::Move, false));
-    const scene::Light spot = view::newLight(scene::LightKind::Spot, camera, 1);
-    const auto aimed = view::draggedLight(spot, camera, aspect, {0.5f, 0.5f}, view::LightDrag::Aim, false);
-    EXPECT_NEAR(glm::distance(aimed->direction, glm::normalize(camera.target - spot.position)), 0, 1e-5f);
-}
-
-TEST(ViewEdits, AreKeptWhole) {
-    scene::Scene scene = ballScene();
-    const view::EditedScene base = view::editedOf(scene);
-    view::EditedScene edited = base;
-    edited.materials[0].hidden = {2};
-    edited.materials[0].material.layers[1].variance = 0.1234;
-    edited.surfaces[1].roughness = 0.3f;
-    edited.surfaces[1].material = scene::none;
-    edited.lights.pop_back();
-    edited.lights[0].intensity = 0.7f;
-    edited.exposureStops = 1.5f;
-    edited.environmentRotation = 0.25f;
-    const std::string text = view::formatEdited(edited);
-    EXPECT_NE(text, view::formatEdited(base));
-    const view::EditedScene read = view::parseEdited(text, "kept", base);
-    EXPECT_EQ(read.materials, edited.materials);
-    EXPECT_EQ(read.surfaces[1].material, scene::none);
-    EXPECT_EQ(read.lights.size(), 1u);
-    EXPECT_EQ(read.lights[0].intensity, 0.7f);
-    EXPECT_EQ(read.environmentRotation, 0.25f);
-    view::EditedScene other = base;
-    other.materials.clear();
-    EXPECT_THROW(static_cast<void>(view::parseEdited(text, "kept", other)), FileError);
-    EXPECT_THROW(static_cast<void>(view::parseEdited("{}", "kept", base)), FileError);
-}
-
 TEST_F(ViewLoop, ASwatchHasAShadowsEdgeAndAWedge) {
     view::Swatch swatch(device(), 1.28); // px per mm: 32 px a body
     const auto drawn = [&](const Material& material) {
@@ -420,19 +351,6 @@ TEST_F(ViewLoop, ASwatchHasAShadowsEdgeAndAWedge) {
     EXPECT_GT(red(with, 34), red(without, 34) + 0.1f);   // and through where the wedge is thin
     EXPECT_LT(red(with, 62), red(with, 34) - 0.1f);
     EXPECT_GT(red(with, 80), 0.2f); // the ball
-}
-
-TEST(ViewColors, AreToldApart) {
-    for (const view::WindowColors& colors : {view::darkColors, view::lightColors}) {
-        for (const view::ShownColor& ground :
-             {colors.window, colors.base, colors.alternateBase, colors.button, colors.toolTip}) {
-            EXPECT_GE(view::contrast(colors.text, ground), 4.5);
-            EXPECT_GE(view::contrast(colors.faint, ground), 3);
-        }
-        EXPECT_GE(view::contrast(colors.highlightedText, colors.highlight), 4.5);
-        EXPECT_GE(view::contrast(colors.link, colors.window), 4.5);
-    }
-    EXPECT_NEAR(view::contrast({0, 0, 0}, {255, 255, 255}), 21, 1e-9);
 }
 
 TEST(ViewSideError, IsThatOfTheMetrics) {
@@ -462,20 +380,6 @@ TEST(ViewSideError, IsThatOfTheMetrics) {
     EXPECT_FALSE(measured[1].energyRatio);
 }
 
-TEST(ViewRecipes, ASlabsMelaninMakesItSkin) {
-    std::vector<Slab> slabs = view::skinSlabs({});
-    const Material before = view::mixSlabs(presets().front(), slabs);
-    for (const view::Parameter<Slab>& parameter : view::slabParameters()) {
-        if (parameter.name == std::string("slab.melanin")) {
-            parameter.set(slabs[0], 0.4);
-        }
-    }
-    const Material dark = view::mixSlabs(presets().front(), slabs);
-    EXPECT_EQ(findFault(dark), "");
-    EXPECT_EQ(dark.slabs, slabs);
-    EXPECT_LT(dark.albedo[0], 0.7 * before.albedo[0]);
-}
-
 TEST(ViewReference, ClosingWhileItRunsTakesLessThanASecondOfProcessor) {
     auto task = std::make_unique<view::ReferenceTask>(ballScene(), ballScene().cameras[0], side, side);
     while (task->version() == 0 && task->state().fault.empty()) {
@@ -498,59 +402,6 @@ TEST(ViewReference, ClosingBeforeItsFirstSampleTakesLessThanASecondOfProcessor) 
     const double begin = tests::processorSeconds();
     task.reset();
     EXPECT_LT(tests::processorSeconds() - begin, 1);
-}
-
-TEST(ViewInspection, SaysWhyThereIsNothing) {
-    scene::Scene scene = ballScene();
-    const trace::Geometry geometry(scene);
-    view::EditedScene edited = view::editedOf(scene);
-    const auto sentenceAt = [&](glm::dvec2 place, const renderer::EffectSettings& effect = {}) {
-        const auto found = view::inspect(geometry, edited, scene.cameras[0], effect, place, 200, 200);
-        return found ? found->sentence : std::string("nothing");
-    };
-    EXPECT_EQ(sentenceAt({0.5, 0.5}).rfind("It scatters: light travels", 0), 0u) << sentenceAt({0.5, 0.5});
-    EXPECT_NE(sentenceAt({0.5, 0.5}, {.scatter = false}).find("scatter is off"), std::string::npos);
-    EXPECT_NE(sentenceAt({0.5, 0.5}).find("is behind"), std::string::npos) << sentenceAt({0.5, 0.5});
-    EXPECT_NE(sentenceAt({0.05, 0.05}).find("no subsurface material"), std::string::npos);
-    edited.materials[0].material.strength = 0;
-    edited.materials[0].material.translucency = 0;
-    EXPECT_NE(sentenceAt({0.5, 0.5}).find("strength is 0"), std::string::npos);
-    EXPECT_NE(sentenceAt({0.5, 0.5}).find("translucency is 0"), std::string::npos);
-}
-
-TEST(ViewLayers, AreAddedHiddenMovedAndRemoved) {
-    view::EditedMaterial edited{presets().front(), {}};
-    const std::vector<Layer> original = edited.material.layers;
-    edited.hidden = {1};
-    EXPECT_EQ(edited.drawn().layers.size(), original.size() - 1);
-    view::moveLayer(edited, 1, 3);
-    EXPECT_EQ(edited.hidden, std::set<std::size_t>{3});
-    EXPECT_EQ(edited.material.layers[3], original[1]);
-    EXPECT_TRUE(view::duplicateLayer(edited, 0));
-    EXPECT_EQ(edited.hidden, std::set<std::size_t>{4});
-    EXPECT_TRUE(view::removeLayer(edited, 4));
-    EXPECT_TRUE(edited.hidden.empty());
-    EXPECT_TRUE(view::addLayer(edited));
-    EXPECT_EQ(findFault(edited.material), "");
-    while (view::removeLayer(edited, 0)) {
-    }
-    EXPECT_EQ(edited.material.layers.size(), 1u);
-}
-
-TEST(ViewLayers, OfAMeanFreePathAreItsProfileAtAnyScale) {
-    view::EditedMaterial edited{*findPreset("skin-burley"), {}};
-    edited.material.scale = 3;
-    const double before = makeProfile(edited.material)->rmsRadius(0);
-    view::layersOf(edited);
-    EXPECT_EQ(findFault(edited.material), "");
-    EXPECT_NEAR(makeProfile(edited.material)->rmsRadius(0) / before, 1, 0.03);
-}
-
-TEST(ViewStructs, NameEveryLayer) {
-    const std::string text = view::structsOf(presets().front());
-    EXPECT_NE(text.find("static const NacreLayer skin_layers[] = {\n"), std::string::npos);
-    EXPECT_NE(text.find(".layerCount = 6,"), std::string::npos);
-    EXPECT_NE(text.find(".variance = 7.4"), std::string::npos);
 }
 
 } // namespace

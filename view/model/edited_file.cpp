@@ -46,6 +46,13 @@ void readSurface(const json& value, std::size_t materials, scene::Surface& surfa
     }
 }
 
+/// Its file, which is the same one from every folder. What is not UTF-8 in the name is replaced.
+std::string surroundingsOf(const EditedScene& edited) {
+    const std::filesystem::path file = edited.environmentFile;
+    const json name = file.empty() ? std::string() : std::filesystem::absolute(file).string();
+    return json::parse(name.dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
 EditedScene read(const json& root, const std::string& source, const EditedScene& base) {
     EditedScene result = base;
     if (root.at("materials").size() != base.materials.size() || root.at("surfaces").size() != base.surfaces.size()) {
@@ -65,7 +72,7 @@ EditedScene read(const json& root, const std::string& source, const EditedScene&
     result.environmentIntensity = root.at("environmentIntensity").get<float>();
     result.environmentRotation = root.at("environmentRotation").get<float>();
     result.exposureStops = root.at("exposureStops").get<float>();
-    if (const std::string file = root.at("environmentFile").get<std::string>(); file != base.environmentFile) {
+    if (const std::string file = root.at("environmentFile").get<std::string>(); file != surroundingsOf(base)) {
         setEnvironment(result, file);
     }
     return result;
@@ -76,7 +83,7 @@ EditedScene read(const json& root, const std::string& source, const EditedScene&
 std::string formatEdited(const EditedScene& edited) {
     json root{{"environmentIntensity", scene::shortNumber(edited.environmentIntensity)},
               {"environmentRotation", scene::shortNumber(edited.environmentRotation)},
-              {"environmentFile", edited.environmentFile},
+              {"environmentFile", surroundingsOf(edited)},
               {"exposureStops", scene::shortNumber(edited.exposureStops)},
               {"materials", json::array()},
               {"surfaces", json::array()},
@@ -90,7 +97,8 @@ std::string formatEdited(const EditedScene& edited) {
     for (const scene::Light& light : edited.lights) {
         root["lights"].push_back(scene::writeLight(light));
     }
-    return root.dump(1);
+    // Names that a model gives are in any bytes.
+    return root.dump(1, ' ', false, json::error_handler_t::replace);
 }
 
 EditedScene parseEdited(std::string_view text, const std::string& source, const EditedScene& base) {

@@ -13,6 +13,7 @@
 #include <QMainWindow>
 #include <QVulkanInstance>
 
+#include <filesystem>
 #include <memory>
 
 namespace nacre::view {
@@ -39,9 +40,9 @@ public:
     const renderer::Device& device() const { return device_; }
 
     /// Opens a file, or the gallery where the name is empty. What goes wrong is said in a dialogue; false then.
-    bool openFile(const QString& file);
+    bool openFile(const std::filesystem::path& file);
     /// The same of a scene that `load` loads from it.
-    bool openLoaded(const QString& file, const std::function<scene::Scene()>& load);
+    bool openLoaded(const std::filesystem::path& file, const std::function<scene::Scene()>& load);
     /// Draws until everything that is shown has all its samples.
     bool drawUntilStill(int milliseconds);
     /// Opens a scene or a model, or puts a material or surroundings into the scene that is open.
@@ -93,7 +94,7 @@ private:
     void showPanel(QDockWidget& dock);
     void makeStatusBar();
     void fillRecent();
-    void rememberRecent(const QString& file);
+    void rememberRecent(const std::filesystem::path& file);
     void restoreWindow();
 
     void sceneOpened();
@@ -119,7 +120,7 @@ private:
     void drawSwatch();
     float widening() const;
     void remakeLoop();
-    void openPath(const QString& file, const std::function<scene::Scene()>& load);
+    void openPath(const std::filesystem::path& file, const std::function<scene::Scene()>& load);
     void makeLoop();
 
     void chooseFile();

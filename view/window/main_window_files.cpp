@@ -33,6 +33,16 @@ constexpr const char* openFilter = "Scenes and models (*.json *.gltf *.glb *.obj
                                    "*.3ds);;Surroundings (*.hdr *.exr);;All files "
                                    "(*)";
 
+/// A path as the window shows it: what is not UTF-8 in it is replaced.
+QString shown(const std::filesystem::path& file) {
+    return QString::fromStdString(file.string());
+}
+
+/// The same from every folder; empty: the gallery.
+std::filesystem::path wholePath(const std::filesystem::path& file) {
+    return file.empty() ? file : std::filesystem::absolute(file);
+}
+
 /// Whether the file is a material's, which `load` would take for a scene.
 bool isMaterial(const QString& file) {
     try {
@@ -45,8 +55,8 @@ bool isMaterial(const QString& file) {
 
 } // namespace
 
-void MainWindow::openPath(const QString& file, const std::function<scene::Scene()>& load) {
-    statusBar()->showMessage("Opening " + (file.isEmpty() ? QString("the gallery") : file) + " …");
+void MainWindow::openPath(const std::filesystem::path& file, const std::function<scene::Scene()>& load) {
+    statusBar()->showMessage("Opening " + (file.empty() ? QString("the gallery") : shown(file)) + " …");
     QApplication::setOverrideCursor(Qt::WaitCursor);
     QApplication::processEvents(QEventLoop::ExcludeUserInputEvents);
     opening_ = true;
@@ -56,7 +66,7 @@ void MainWindow::openPath(const QString& file, const std::function<scene::Scene(
         statusBar()->clearMessage();
     };
     try {
-        document_.openScene(load(), file.toStdString());
+        document_.openScene(load(), file);
     } catch (...) {
         end();
         throw;
@@ -64,7 +74,7 @@ void MainWindow::openPath(const QString& file, const std::function<scene::Scene(
     end();
 }
 
-bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scene()>& load) {
+bool MainWindow::openLoaded(const std::filesystem::path& file, const std::function<scene::Scene()>& load) {
     if (!mayForget()) {
         return false;
     }
@@ -74,7 +84,7 @@ bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scen
         complain(QString::fromUtf8(error.what()));
         return false;
     }
-    if (file.isEmpty()) {
+    if (file.empty()) {
         note("Ctrl+O opens a model, or drop one here. Then choose a preset. ? lists all keys.");
     } else {
         rememberRecent(file);
@@ -86,8 +96,8 @@ bool MainWindow::openLoaded(const QString& file, const std::function<scene::Scen
     return true;
 }
 
-bool MainWindow::openFile(const QString& file) {
-    return openLoaded(file, [&] { return file.isEmpty() ? scene::makeGallery() : scene::load(file.toStdString()); });
+bool MainWindow::openFile(const std::filesystem::path& file) {
+    return openLoaded(file, [&] { return file.empty() ? scene::makeGallery() : scene::load(file); });
 }
 
 /// Materials and surroundings go into the scene that is open; everything else is opened.
@@ -97,7 +107,7 @@ void MainWindow::openAny(const QString& file) {
     } else if (file.endsWith(".json") && isMaterial(file)) {
         material_->load(file);
     } else {
-        openFile(file);
+        openFile(file.toStdString());
     }
 }
 
@@ -115,7 +125,7 @@ void MainWindow::saveRecovery() {
         if (document_.isSaved()) {
             recovery_->remove();
         } else {
-            recovery_->save(QString::fromStdString(document_.file().string()), document_.edited());
+            recovery_->save(wholePath(document_.file()), document_.edited());
         }
     } catch (const std::exception& error) {
         complain(QString::fromUtf8(error.what()));
@@ -127,7 +137,7 @@ void MainWindow::offerRecovered() {
     if (!found) {
         return;
     }
-    const QString scene = found->scene.isEmpty() ? "the gallery" : found->scene;
+    const QString scene = found->scene.empty() ? "the gallery" : shown(found->scene);
     const QString question = "The last session ended before its edits of " + scene + " were saved. Go on with them?";
     const bool wanted = quiet_ || showPlainMessage(this, QMessageBox::Question, question,
                                                    QMessageBox::Yes | QMessageBox::No) == QMessageBox::Yes;
@@ -138,7 +148,7 @@ void MainWindow::offerRecovered() {
 }
 
 bool MainWindow::recover(const Recovered& found) {
-    if (found.scene != QString::fromStdString(document_.file().string()) && !openFile(found.scene)) {
+    if (found.scene != wholePath(document_.file()) && !openFile(found.scene)) {
         return false;
     }
     try {
@@ -214,13 +224,17 @@ void MainWindow::fillRecent() {
     recent_->clear();
     const QStringList files = QSettings().value("recent").toStringList();
     for (const QString& file : files) {
-        recent_->addAction(QString(file).replace('&', "&&"), this, [this, file] { openFile(file); });
+        recent_->addAction(QString(file).replace('&', "&&"), this, [this, file] { openFile(file.toStdString()); });
     }
     recent_->setEnabled(!files.isEmpty());
 }
 
-void MainWindow::rememberRecent(const QString& file) {
-    const QString whole = QFileInfo(file).absoluteFilePath();
+/// A name that is not UTF-8 cannot be kept in the settings.
+void MainWindow::rememberRecent(const std::filesystem::path& file) {
+    if (shown(file).toStdString() != file.string()) {
+        return;
+    }
+    const QString whole = QFileInfo(shown(file)).absoluteFilePath();
     QSettings settings;
     QStringList files = settings.value("recent").toStringList();
     files.removeAll(whole);
@@ -266,7 +280,7 @@ bool MainWindow::writeScene(const QString& file) {
         camera.orthographicHeight /= widening();
         document_.saveScene(file.toStdString(), camera);
         recovery_->remove();
-        rememberRecent(file);
+        rememberRecent(file.toStdString());
         setWindowTitle("Nacre – " + document_.name());
         note("Saved " + file);
         return true;
@@ -278,7 +292,7 @@ bool MainWindow::writeScene(const QString& file) {
 
 void MainWindow::reload() {
     const scene::Camera camera = picture_->camera();
-    if (openFile(QString::fromStdString(document_.file().string()))) {
+    if (openFile(document_.file())) {
         picture_->setCamera(camera);
         note("Read again: " + document_.name());
     }

@@ -37,7 +37,8 @@ std::optional<Recovered> read(const QString& path) {
     if (isRunning(object["process"].toInteger())) {
         return std::nullopt;
     }
-    return Recovered{path, object["scene"].toString(), object["edits"].toString()};
+    const QByteArray scene = QByteArray::fromPercentEncoding(object["scene"].toString().toLatin1());
+    return Recovered{path, scene.toStdString(), object["edits"].toString()};
 }
 
 /// What programs that no longer run have left, the last one at the end.
@@ -56,9 +57,11 @@ std::vector<Recovered> left() {
 
 Recovery::Recovery() : file_(folder().filePath(QString("recovery-%1.json").arg(QCoreApplication::applicationPid()))) {}
 
-void Recovery::save(const QString& scene, const EditedScene& edited) {
+/// The scene's file percent-encoded, since its name need not be UTF-8 as JSON is.
+void Recovery::save(const std::filesystem::path& scene, const EditedScene& edited) {
+    const QByteArray file = QByteArray::fromStdString(scene.string()).toPercentEncoding("/");
     const QJsonObject object{{"process", QCoreApplication::applicationPid()},
-                             {"scene", scene},
+                             {"scene", QString::fromLatin1(file)},
                              {"edits", QString::fromStdString(formatEdited(edited))}};
     const QByteArray text = QJsonDocument(object).toJson();
     writeFileAtomically(file_.toStdString(),

@@ -5,15 +5,16 @@
 
 #include <QString>
 
+#include <filesystem>
 #include <optional>
 
 namespace nacre::view {
 
 /// What was being edited when the program ended without closing.
 struct Recovered {
-    QString file;  ///< where it was kept
-    QString scene; ///< the scene's file; empty: the gallery
-    QString edits; ///< formatEdited
+    QString file;                ///< where it was kept
+    std::filesystem::path scene; ///< the scene's file; empty: the gallery
+    QString edits;               ///< formatEdited
 };
 
 /// A file in the user's data folder, one a running program.
@@ -22,7 +23,7 @@ public:
     Recovery();
 
     /// Throws FileError where it cannot be written.
-    void save(const QString& scene, const EditedScene& edited);
+    void save(const std::filesystem::path& scene, const EditedScene& edited);
     /// Nothing would be lost any more.
     void remove();
 

@@ -30,7 +30,7 @@ void requireNoMessages(const MainWindow& window) {
 }
 
 void runScripted(MainWindow& window, const RunSettings& settings, const Script& script) {
-    if (!window.openLoaded(QString::fromStdString(settings.input.string()), settings.load)) {
+    if (!window.openLoaded(settings.input, settings.load)) {
         throw std::runtime_error(window.lastFault().toStdString());
     }
     script.run(window);
@@ -70,7 +70,7 @@ int runWindow(const RunSettings& settings) {
     }
     window.show();
     QTimer::singleShot(0, &window, [&] {
-        window.openLoaded(QString::fromStdString(settings.input.string()), settings.load);
+        window.openLoaded(settings.input, settings.load);
         window.offerRecovered();
     });
     const int result = QApplication::exec();
