@@ -40,7 +40,7 @@ std::optional<BakeForm> formOf(const std::filesystem::path& file) {
 
 } // namespace
 
-BakeOptionParser::BakeOptionParser(CLI::App& command) {
+BakeOptionParser::BakeOptionParser(CLI::App& command) : command_(command) {
     const auto add = [&command](const char* group, const char* name, auto& value, const std::string& description,
                                 const char* type) {
         command.add_option(name, value, description)->type_name(type)->group(group)->allow_extra_args(false);
@@ -88,6 +88,9 @@ BakeOptions BakeOptionParser::finish() const {
         if (options.form != BakeForm::Png) {
             throw UsageError("--white is for a .png, and --output is '" + options.output.string() + "'");
         }
+    }
+    if (options.form == BakeForm::Ply) {
+        requireWith(command_, {"--size"}, "a picture, and --output is '" + options.output.string() + "'");
     }
     if (options.neutral && !options.material.empty()) {
         throw UsageError("--neutral and --material exclude each other");

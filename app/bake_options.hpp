@@ -34,6 +34,7 @@ public:
     BakeOptions finish() const;
 
 private:
+    const CLI::App& command_;
     BakeOptions options_;
     std::string size_ = "1024x1024";
 };

@@ -181,7 +181,12 @@ Examples:
         "Of scatter's irradiance and output: half (R16G16B16A16_SFLOAT) or packed (B10G11R11_UFLOAT_PACK32)", "FORMAT");
     add("--csv", arguments->csv, "Where all figures go", "FILE");
     addDevice(*command, arguments->device.name);
-    command->callback([arguments] { runEffect(*arguments); });
+    command->callback([arguments, command] {
+        if (arguments->suite == "targets" || arguments->suite == "transmit") {
+            requireWith(*command, {"--techniques"}, "another suite than " + arguments->suite + ", which has its own");
+        }
+        runEffect(*arguments);
+    });
 }
 
 void addContext(CLI::App& bench) {

@@ -96,6 +96,13 @@ void requireRange(double value, double low, double high, const std::string& opti
     }
 }
 
+void requireWith(const CLI::App& command, std::initializer_list<const char*> options, const std::string& other) {
+    const auto* const given = std::ranges::find_if(options, [&](const char* name) { return command.count(name) > 0; });
+    if (given != options.end()) {
+        throw UsageError(std::string(*given) + " requires " + other);
+    }
+}
+
 PictureSize parseSize(const std::string& text) {
     const char* const end = text.data() + text.size();
     std::uint64_t width = 0;

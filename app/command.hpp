@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -46,6 +47,9 @@ void writeText(const std::filesystem::path& file, std::string_view text);
 
 /// Throws UsageError, naming the option and its value, unless that is in [low, high].
 void requireRange(double value, double low, double high, const std::string& option);
+
+/// Throws UsageError for the first of these options that was given: they mean nothing without `other`.
+void requireWith(const CLI::App& command, std::initializer_list<const char*> options, const std::string& other);
 
 struct PictureSize {
     std::uint32_t width = 0;

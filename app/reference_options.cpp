@@ -77,7 +77,7 @@ Examples:
 
 } // namespace
 
-ReferenceOptionParser::ReferenceOptionParser(CLI::App& command) {
+ReferenceOptionParser::ReferenceOptionParser(CLI::App& command) : command_(command) {
     const auto add = [&command](const char* group, const char* name, auto& value, const std::string& description,
                                 const char* type) {
         command.add_option(name, value, description)->type_name(type)->group(group)->allow_extra_args(false);
@@ -124,6 +124,11 @@ ReferenceOptions ReferenceOptionParser::finish() const {
     static_cast<SceneOptions&>(options) = scene_.finish();
     options.settings.method = find(methods, reference::methodName, method_, "method");
     options.settings.boundary = find(boundaries, reference::boundaryName, boundary_, "boundary");
+    if (options.settings.method == Method::Surface) {
+        requireWith(command_, {"--boundary", "--anisotropy"}, "--method walk");
+    } else {
+        requireWith(command_, {"--no-exchange"}, "--method surface");
+    }
     requireRange(options.settings.anisotropy, -0.99, 0.99, "--anisotropy");
     options.settings.width = options.width;
     options.settings.height = options.height;

@@ -25,6 +25,7 @@ public:
     ReferenceOptions finish() const;
 
 private:
+    const CLI::App& command_;
     ReferenceOptions options_;
     SceneOptionParser scene_;
     std::string method_ = "surface";

@@ -127,6 +127,25 @@ void runTurntable(const ViewOptions& options) {
     failOnMessages(device);
 }
 
+/// Options of the three ways to view that would do nothing in another one.
+void requireFittingOptions(const CLI::App& command, const ViewOptions& options) {
+    const bool turns = command.count("--turntable") > 0;
+    if (options.headless && turns) {
+        throw UsageError("--headless and --turntable exclude each other");
+    }
+    if (!options.headless) {
+        requireWith(command, {"--json", "--moving"}, "--headless");
+    }
+    if (!turns) {
+        requireWith(command, {"--output", "--samples"}, "--turntable");
+    }
+    if (!options.headless && !turns) {
+        requireWith(command, {"--frames", "--size", "--shadow-map-size"}, "--headless or --turntable");
+    } else {
+        requireWith(command, {"--script"}, "a window, without --headless and --turntable");
+    }
+}
+
 void view(const ViewOptions& options) {
     requireRange(options.shadowMapSize, 16, 16384, "--shadow-map-size");
     if (options.turntable > 0) {
@@ -187,7 +206,8 @@ void addView(CLI::App& app) {
   nacre view model.glb --material skin
   nacre view --headless --frames 600 --size 1920x1080
   nacre view model.glb --turntable 36 -o turn)");
-    command->callback([options, parser] {
+    command->callback([options, parser, command] {
+        requireFittingOptions(*command, *options);
         ViewOptions all = *options;
         static_cast<SceneOptions&>(all) = parser->finish();
         view(all);

@@ -68,6 +68,8 @@ TEST_F(BenchTest, NeedsASuite) {
     expectComplaint(run({"bench"}), 2, {"subcommand"});
     expectComplaint(run({"bench", "guess"}), 2, {"subcommand", "nacre bench --help"});
     expectComplaint(run({"bench", "diff", "old.json"}), 2, {"NEW"});
+    expectComplaint(run({"bench", "effect", "--suite", "targets", "--techniques", "bank"}), 2,
+                    {"--techniques requires another suite than targets"});
 }
 
 void waitUntilItSays(const RunningNacre& nacre, const std::string& text) {

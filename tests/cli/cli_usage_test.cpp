@@ -97,6 +97,7 @@ const std::vector<WrongUsage> wrongUsages{
     {"BakeRaysZero", {"bake", "thickness", "--rays", "0"}, {"--rays 0", "1 to 65536"}},
     {"BakeWhite", {"bake", "thickness", "-o", "t.png", "--white", "0"}, {"--white 0"}},
     {"BakeWhiteOfAnExr", {"bake", "thickness", "-o", "t.exr", "--white", "9"}, {"--white", "'t.exr'"}},
+    {"BakeSizeOfAPly", {"bake", "thickness", "-o", "t.ply", "--size", "9x9"}, {"--size requires a picture", "'t.ply'"}},
     {"BakeNeutralSkin", {"bake", "thickness", "--neutral", "--material", "skin"}, {"--neutral", "--material"}},
     {"BakeResumeRestart", {"bake", "thickness", "--resume", "--restart"}, {"--resume", "--restart"}},
     {"BakeOverItsInput", {"bake", "thickness", "a.ply", "-o", "./a.ply"}, {"same file", "a.ply"}},

@@ -122,6 +122,20 @@ TEST_F(ViewTest, WrongRangesAreRefused) {
     expectComplaint(run({"view", "--headless", "--frames", "many"}), 2, {"--frames 'many'"});
 }
 
+TEST_F(ViewTest, OptionsOfAnotherWayToViewAreRefused) {
+    const auto refused = [&](std::vector<std::string> arguments, const char* sentence) {
+        arguments.insert(arguments.begin(), "view");
+        expectComplaint(run(arguments), 2, {sentence});
+    };
+    refused({"--json", "frames.json"}, "--json requires --headless");
+    refused({"--turntable", "3", "-o", "x", "--moving", "lights"}, "--moving requires --headless");
+    refused({"--headless", "-o", "x"}, "--output requires --turntable");
+    refused({"--headless", "--samples", "2"}, "--samples requires --turntable");
+    refused({"--size", "64x64"}, "--size requires --headless or --turntable");
+    refused({"--headless", "--script", "steps.json"}, "--script requires a window");
+    refused({"--headless", "--turntable", "3"}, "--headless and --turntable exclude each other");
+}
+
 #ifdef NACRE_HAS_WINDOW
 
 TEST_F(ViewTest, AScriptEditsUndoesSavesAndLoads) {
