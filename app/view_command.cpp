@@ -117,7 +117,6 @@ void runTurntable(const ViewOptions& options) {
     if (settings.folder.empty()) {
         throw UsageError("--turntable needs a folder: -o DIR");
     }
-    requireRange(settings.count, 1, mostFrames, "--turntable");
     parseRange(options.frames, settings);
     renderer::Device device(options.device);
     scene::Scene scene = makeScene(options);
@@ -136,7 +135,9 @@ void requireFittingOptions(const CLI::App& command, const ViewOptions& options) 
     if (!options.headless) {
         requireWith(command, {"--json", "--moving"}, "--headless");
     }
-    if (!turns) {
+    if (turns) {
+        requireRange(options.turntable, 1, mostFrames, "--turntable");
+    } else {
         requireWith(command, {"--output", "--samples"}, "--turntable");
     }
     if (!options.headless && !turns) {

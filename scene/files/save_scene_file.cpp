@@ -286,7 +286,7 @@ std::string findOtherText(const Json& json, const std::string& field) {
 /// Files and what a model has are named in any bytes, a scene file is UTF-8.
 std::string formatScene(const Json& json, const fs::path& target) {
     if (const std::string found = findOtherText(json, ""); !found.empty()) {
-        throw SceneError(target.string() + ": cannot be written: " + found + ", which is not UTF-8");
+        throw SceneError(target.string() + ": cannot be written: " + withoutMiddle(found) + ", which is not UTF-8");
     }
     return json.dump(4) + "\n";
 }

@@ -133,6 +133,7 @@ TEST_F(ViewTest, OptionsOfAnotherWayToViewAreRefused) {
     refused({"--headless", "--samples", "2"}, "--samples requires --turntable");
     refused({"--size", "64x64"}, "--size requires --headless or --turntable");
     refused({"--headless", "--script", "steps.json"}, "--script requires a window");
+    refused({"--turntable", "0", "-o", "x"}, "--turntable 0 is outside 1 to 100000");
     refused({"--headless", "--turntable", "3"}, "--headless and --turntable exclude each other");
 }
 
