@@ -271,16 +271,19 @@ std::string findOtherText(const Json& json, const std::string& field) {
         const std::string text = json.get<std::string>();
         return isUtf8(text) ? "" : field + " is " + inQuotes(text);
     }
-    std::string found;
     if (!json.is_structured()) {
-        return found;
+        return "";
     }
     for (const auto& [key, value] : json.items()) {
+        if (json.is_object() && !isUtf8(key)) {
+            return field + " has the key " + inQuotes(key);
+        }
         const std::string member = json.is_array() ? field + '[' + key + ']' : field + (field.empty() ? "" : ".") + key;
-        found = found.empty() ? findOtherText(value, member) : found;
-        found = found.empty() && json.is_object() && !isUtf8(key) ? field + " has the key " + inQuotes(key) : found;
+        if (std::string found = findOtherText(value, member); !found.empty()) {
+            return found;
+        }
     }
-    return found;
+    return "";
 }
 
 /// Files and what a model has are named in any bytes, a scene file is UTF-8.
